@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The refinement engine: pure functions on light stacks. Read this header first.
+//
+//     LightStack   stack  = read_stack(folder);
+//     RefineResult result = refine_depth(stack, options);
+//     write_result(result, out);                        // refine/output/result_io.h
+#pragma once
+
+#include <functional>
+#include <map>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "refine/options.h"
+#include "stack/stack.h"
+
+namespace rakelight {
+
+/// How a refinement ended.
+enum class Termination {
+  converged,       ///< the stopping rule of the method was met
+  max_iterations,  ///< the iteration limit came first: usable, but not settled
+  diverged,        ///< the energy rose or a system was singular: the best state so far is returned
+};
+
+/// One outer iteration as it ran.
+struct IterationReport {
+  int index = 0;
+  double energy = 0;               ///< after the depth step, the weights of this iteration
+  double energy_before_depth = 0;  ///< same weights, before the depth step
+  double depth_change_mm = 0;      ///< root mean square change of depth
+  double residual_scale = 0;       ///< robust standard deviation of the photometric residual, linear radiance
+  int backtracks = 0;              ///< halvings the depth step needed
+  double seconds = 0;
+};
+
+/// Light of one image: first-order spherical harmonics a channel, I = rho (l.n + phi), camera coordinates.
+struct LightEstimate {
+  std::string id;
+  int frame_index = 0;
+  cv::Matx34d sh;  ///< row c (R, G, B): l_x, l_y, l_z, phi
+};
+
+struct RefineResult {
+  Camera camera;           ///< of the refined grid
+  int scale = 1;           ///< refined grid / depth grid
+  cv::Mat1f depth;         ///< metres, NaN where there is no surface
+  cv::Mat1f initial_depth; ///< the preprocessed sensor depth on the same grid, metres, NaN outside
+  cv::Mat3f normals;       ///< camera frame, unit length, n_z < 0; NaN outside
+  cv::Mat3f albedo;        ///< linear RGB, mean 1 a channel over the surface; NaN outside
+  cv::Mat1b inpainted;     ///< 255 where the sensor gave no depth and the start was filled in
+  std::vector<LightEstimate> lights;
+  std::vector<IterationReport> iterations;
+  Termination termination = Termination::max_iterations;
+  std::string message;                   ///< one sentence on how it ended
+  std::vector<std::string> warnings;     ///< one sentence each
+  std::map<std::string, double> quality; ///< named measures, e.g. "coverage", "image_noise", "depth_noise_m"
+  RefineOptions options;                 ///< every parameter used, resolved
+};
+
+/// Where the work stands; return false to cancel (refine_depth then throws Cancelled).
+struct Progress {
+  std::string stage;        ///< e.g. "depth step"
+  double fraction_done = 0; ///< of the whole, 0 to 1
+};
+using ProgressCallback = std::function<bool(const Progress&)>;
+
+/// Refines the stack's depth by photometric stereo. Pure: no file, clock or output is touched.
+/// @throws InputError when the data cannot be used, UsageError when the options ask what the stack cannot give
+///         (a scale finer than its colour), Cancelled when the callback returned false.
+RefineResult refine_depth(const LightStack& stack, const RefineOptions& options,
+                          const ProgressCallback& progress = {});
+
+}  // namespace rakelight

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stack/stack.h"
+
+#include <cmath>
+
+namespace rakelight {
+
+Camera binned(const Camera& camera, double factor) {
+  Camera result = camera;
+  result.width = static_cast<int>(std::lround(camera.width / factor));
+  result.height = static_cast<int>(std::lround(camera.height / factor));
+  result.fx = camera.fx / factor;
+  result.fy = camera.fy / factor;
+  result.cx = (camera.cx + 0.5) / factor - 0.5;
+  result.cy = (camera.cy + 0.5) / factor - 0.5;
+  return result;
+}
+
+}  // namespace rakelight
