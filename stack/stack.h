@@ -98,11 +98,23 @@ struct LightStack {
   std::string unknown_keys;   ///< manifest keys this version does not know, as JSON text: kept on writing
 };
 
+/// A lamp as it truly is. A unit of `strength` gives a facing surface of albedo 1 a radiance of 1 (encoded full scale):
+/// far lamps everywhere, near lamps at the distance of the object's centre.
+struct LampTruth {
+  std::string id;  ///< as in LightStack::lights
+  LampColor color = LampColor::white;
+  bool near = false;
+  std::optional<Eigen::Vector3d> position_m;              ///< camera coordinates; near lamps only
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();    ///< unit, from the object's centre towards the lamp
+  Eigen::Vector3d strength = Eigen::Vector3d::Zero();     ///< linear RGB
+};
+
 /// The right answer, from `simulate` or a laboratory scanner; NaN outside the object.
 struct GroundTruth {
   cv::Mat1f depth;    ///< metres
   cv::Mat3f normals;  ///< camera frame, unit length, n_z < 0 faces the camera; channels x, y, z
   cv::Mat3f albedo;   ///< linear RGB; may be empty
+  std::vector<LampTruth> lamps;  ///< truth/lamps.json; may be empty
 };
 
 }  // namespace rakelight
