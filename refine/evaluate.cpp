@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "stack/errors.h"
+
+namespace rakelight {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+bool finite(const cv::Vec3f& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+[[noreturn]] void refuse_sizes(const cv::Size& result, const cv::Size& truth) {
+  const auto text = [](const cv::Size& s) {
+    return std::to_string(s.width) + "x" + std::to_string(s.height);
+  };
+  throw InputError("the result's depth",
+                   "its size " + text(result) + " and the truth's " + text(truth) + " have no whole ratio",
+                   "evaluate against the truth of the stack that was refined");
+}
+
+/// How many pixels of the fine grid lie along one of the coarse grid; 0 if that is no whole number.
+int whole_ratio(const cv::Size& coarse, const cv::Size& fine) {
+  if (coarse.empty() || fine.width % coarse.width != 0) return 0;
+  const int ratio = fine.width / coarse.width;
+  return coarse.height * ratio == fine.height ? ratio : 0;
+}
+
+/// Depth on a grid `ratio` times finer, bilinear between valid pixels; a fine pixel is valid where the coarse pixel
+/// that covers it is.
+cv::Mat1f finer_depth(const cv::Mat1f& depth, int ratio) {
+  const cv::Size fine = depth.size() * ratio;
+  cv::Mat1f value(depth.size(), 0.0f), weight(depth.size(), 0.0f), fine_value, fine_weight;
+  for (int y = 0; y < depth.rows; ++y) {
+    for (int x = 0; x < depth.cols; ++x) {
+      if (!std::isfinite(depth(y, x)) || depth(y, x) <= 0) continue;
+      value(y, x) = depth(y, x);
+      weight(y, x) = 1.0f;
+    }
+  }
+  cv::resize(value, fine_value, fine, 0, 0, cv::INTER_LINEAR);
+  cv::resize(weight, fine_weight, fine, 0, 0, cv::INTER_LINEAR);
+  for (int y = 0; y < fine.height; ++y) {
+    for (int x = 0; x < fine.width; ++x) {
+      const bool valid = weight(y / ratio, x / ratio) > 0;
+      fine_value(y, x) = valid ? fine_value(y, x) / fine_weight(y, x) : kNaN;
+    }
+  }
+  return fine_value;
+}
+
+/// The normal of the coarse pixel that covers each fine one.
+cv::Mat3f finer_normals(const cv::Mat3f& normals, int ratio) {
+  cv::Mat3f fine;
+  if (!normals.empty()) cv::resize(normals, fine, normals.size() * ratio, 0, 0, cv::INTER_NEAREST);
+  return fine;
+}
+
+/// Everything on one grid: the finer of the two.
+struct Compared {
+  Camera camera;
+  cv::Mat1f depth, true_depth;
+  cv::Mat3f normals, true_normals;
+};
+
+Compared on_finer_grid(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals,
+                       const GroundTruth& truth) {
+  if (const int ratio = whole_ratio(depth.size(), truth.depth.size()); ratio >= 1) {
+    if (ratio == 1) return {camera, depth, truth.depth, normals, truth.normals};
+    return {binned(camera, 1.0 / ratio), finer_depth(depth, ratio), truth.depth,
+            finer_normals(normals, ratio), truth.normals};
+  }
+  const int ratio = whole_ratio(truth.depth.size(), depth.size());
+  if (ratio == 0) refuse_sizes(depth.size(), truth.depth.size());
+  return {camera, depth, finer_depth(truth.depth, ratio), normals, finer_normals(truth.normals, ratio)};
+}
+
+/// Difference of log depth towards the next pixel (dx, dy), towards the previous one at borders, 0 where alone.
+double log_slope(const cv::Mat1d& log_depth, const cv::Mat1b& mask, int x, int y, int dx, int dy) {
+  const cv::Rect grid({0, 0}, mask.size());
+  const cv::Point here(x, y), next(x + dx, y + dy), last(x - dx, y - dy);
+  if (grid.contains(next) && mask(next)) return log_depth(next) - log_depth(here);
+  if (grid.contains(last) && mask(last)) return log_depth(here) - log_depth(last);
+  return 0;
+}
+
+/// Eq. (5), with the slopes p, q of log depth.
+cv::Vec3d normal_from_slopes(const Camera& camera, int x, int y, double p, double q) {
+  const cv::Vec3d n(camera.fx * p, camera.fy * q, -1 - (x - camera.cx) * p - (y - camera.cy) * q);
+  return n / cv::norm(n);
+}
+
+double angle_deg(const cv::Vec3d& a, const cv::Vec3d& b) {
+  return std::acos(std::clamp(a.dot(b), -1.0, 1.0)) * 180.0 / CV_PI;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(values.size());
+}
+
+double root_mean_square(const std::vector<double>& values, double offset) {
+  double sum = 0;
+  for (const double value : values) sum += (value - offset) * (value - offset);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+/// 255 where the truth exists; `both` where the result does, too.
+void mark(const Compared& c, cv::Mat1b& truth, cv::Mat1b& both) {
+  truth.create(c.depth.size());
+  both.create(c.depth.size());
+  for (int y = 0; y < c.depth.rows; ++y) {
+    for (int x = 0; x < c.depth.cols; ++x) {
+      const float z = c.depth(y, x);
+      truth(y, x) = std::isfinite(c.true_depth(y, x)) && finite(c.true_normals(y, x)) ? 255 : 0;
+      both(y, x) = truth(y, x) && std::isfinite(z) && z > 0 ? 255 : 0;
+    }
+  }
+}
+
+}  // namespace
+
+Evaluation evaluate(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals,
+                    const GroundTruth& truth) {
+  const Compared c = on_finer_grid(camera, depth, normals, truth);
+  cv::Mat1b is_true, mask;
+  mark(c, is_true, mask);
+  const int count = cv::countNonZero(mask);
+  if (count == 0) {
+    throw InputError("the result's depth", "it shares no pixel with the truth",
+                     "evaluate against the truth of the stack that was refined");
+  }
+
+  cv::Mat1d log_depth(c.depth.size(), 0.0);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      if (mask(y, x)) log_depth(y, x) = std::log(static_cast<double>(c.depth(y, x)));
+    }
+  }
+
+  std::vector<double> depth_errors_mm, angles, own_angles;
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      if (!mask(y, x)) continue;
+      const cv::Vec3d true_normal = c.true_normals(y, x);
+      const double z = c.depth(y, x), true_z = c.true_depth(y, x);
+      depth_errors_mm.push_back((z - true_z) * 1e3);
+      const double p = log_slope(log_depth, mask, x, y, 1, 0), q = log_slope(log_depth, mask, x, y, 0, 1);
+      angles.push_back(angle_deg(normal_from_slopes(c.camera, x, y, p, q), true_normal));
+      if (!c.normals.empty() && finite(c.normals(y, x))) {
+        own_angles.push_back(angle_deg(c.normals(y, x), true_normal));
+      }
+    }
+  }
+
+  Evaluation result;
+  result.rmse_mm = root_mean_square(depth_errors_mm, 0);
+  result.rmse_unbiased_mm = root_mean_square(depth_errors_mm, mean(depth_errors_mm));
+  result.mae_deg = mean(angles);
+  result.median_deg = median(angles);
+  result.own_normals_mae_deg = mean(own_angles);
+  result.completeness = static_cast<double>(count) / cv::countNonZero(is_true);
+  return result;
+}
+
+}  // namespace rakelight
