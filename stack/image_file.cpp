@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stack/image_file.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "stack/checked_file.h"
+#include "stack/errors.h"
+#include "stack/png_header.h"
+
+namespace rakelight {
+namespace fs = std::filesystem;
+namespace {
+
+std::string to_text(cv::Size size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+
+PngHeader checked_header(const fs::path& file, const ExpectedSize& size) {
+  const Bytes start = read_file_start(file, kPngHeaderBytes);
+  const PngHeader header = parse_png_header(start.data(), start.size(), file.string());
+  const cv::Size actual(static_cast<int>(header.width), static_cast<int>(header.height));
+  if (size && *size != actual) {
+    throw InputError(file.string(), "is " + to_text(actual) + " pixels where " + to_text(*size) + " are expected",
+                     "use images of one size that fit the cameras");
+  }
+  return header;
+}
+
+/// Bytes a PNG of this header may have: incompressible pixels, and room for texts and colour profiles.
+std::uint64_t largest_file(const PngHeader& header) {
+  const std::uint64_t raw = std::uint64_t{header.width} * header.height * 8;
+  return raw + raw / 16 + (std::uint64_t{16} << 20);
+}
+
+cv::Mat decode_png(const fs::path& file, const PngHeader& header) {
+  const Bytes bytes = read_file(file, largest_file(header));
+  // Parsed again: the file may have changed since its first bytes were read.
+  const PngHeader now = parse_png_header(bytes.data(), bytes.size(), file.string());
+  check_png_bytes(bytes.data(), bytes.size(), file.string());
+  cv::Mat image;
+  if (now.width == header.width && now.height == header.height) {
+    try {
+      image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+    } catch (const cv::Exception&) {
+      image.release();  // said below
+    }
+  }
+  if (image.empty()) throw InputError(file.string(), "cannot be decoded", "copy or record it again");
+  return image;
+}
+
+}  // namespace
+
+cv::Mat read_color_png(const fs::path& file, const ExpectedSize& size) {
+  const PngHeader header = checked_header(file, size);
+  if (header.color != PngHeader::Color::rgb) {
+    throw InputError(file.string(), "is not an RGB image", "save it as 8- or 16-bit RGB without transparency");
+  }
+  cv::Mat image = decode_png(file, header);
+  if (image.type() != CV_8UC3 && image.type() != CV_16UC3) {
+    throw InputError(file.string(), "is not a plain RGB image", "save it without transparency");
+  }
+  cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
+  return image;
+}
+
+cv::Mat1w read_depth_png(const fs::path& file, const ExpectedSize& size) {
+  const PngHeader header = checked_header(file, size);
+  if (header.color != PngHeader::Color::gray || header.bit_depth != 16) {
+    throw InputError(file.string(), "is not a 16-bit grey image", "save depth as 16-bit grey PNG");
+  }
+  const cv::Mat image = decode_png(file, header);
+  if (image.type() != CV_16UC1) {
+    throw InputError(file.string(), "is not a plain grey image", "save it without transparency");
+  }
+  return image;
+}
+
+cv::Mat1b read_mask_png(const fs::path& file) {
+  const PngHeader header = checked_header(file, {});
+  if (header.bit_depth > 8) {
+    throw InputError(file.string(), "has 16 bits a channel", "save the mask as 8-bit grey, 255 = object");
+  }
+  cv::Mat1b mask;
+  cv::extractChannel(decode_png(file, header), mask, 0);
+  cv::threshold(mask, mask, 127, 255, cv::THRESH_BINARY);
+  return mask;
+}
+
+void write_png(const fs::path& file, const cv::Mat& image) {
+  cv::Mat stored = image;
+  if (image.channels() == 3) cv::cvtColor(image, stored, cv::COLOR_RGB2BGR);
+  Bytes bytes;
+  // Encoded in memory because cv::imwrite does not notice a full disk.
+  if (!cv::imencode(".png", stored, bytes)) throw IoError("cannot encode " + file.string() + " as PNG");
+  write_file(file, bytes.data(), bytes.size());
+}
+
+}  // namespace rakelight

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The image files of a stack, checked before pixels are allocated and written so that a full disk is noticed.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+
+namespace rakelight {
+
+/// Size an image must have; empty: any.
+using ExpectedSize = std::optional<cv::Size>;
+
+/// An 8- or 16-bit RGB PNG as CV_8UC3 or CV_16UC3, channels R, G, B. @throws InputError, IoError.
+cv::Mat read_color_png(const std::filesystem::path& file, const ExpectedSize& size = {});
+
+/// A 16-bit grey PNG of raw depth. @throws InputError, IoError.
+cv::Mat1w read_depth_png(const std::filesystem::path& file, const ExpectedSize& size = {});
+
+/// A mask of any PNG kind up to 8 bits a channel: 255 where its first channel is at least 128, else 0.
+/// @throws InputError, IoError.
+cv::Mat1b read_mask_png(const std::filesystem::path& file);
+
+/// Writes a PNG: 8- or 16-bit, one channel or R, G, B. @throws IoError.
+void write_png(const std::filesystem::path& file, const cv::Mat& image);
+
+}  // namespace rakelight
