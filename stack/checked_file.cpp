@@ -42,7 +42,8 @@ std::string reason(int error) { return std::generic_category().message(error); }
   if (error == EIO || error == ENOMEM || error == EMFILE || error == ENFILE) {
     throw_io_error("read", file, error);
   }
-  throw InputError(file.string(), "cannot be read (" + reason(error) + ")", "check the file and its permissions");
+  throw InputError(file.string(), "cannot be read (" + reason(error) + ")",
+                   "check the file and its permissions");
 }
 
 /// Opens a regular file; O_NONBLOCK so that a pipe without a writer does not hang.
@@ -113,7 +114,6 @@ void write_file(const fs::path& file, const void* data, std::size_t size) {
     from += put;
     left -= static_cast<std::size_t>(put);
   }
-  if (::fsync(descriptor.get()) != 0) throw_io_error("write", file, errno);
   if (::close(descriptor.release()) != 0) throw_io_error("write", file, errno);
 }
 
@@ -135,7 +135,8 @@ fs::path path_inside(const fs::path& folder, const std::string& relative) {
   if (error) throw_read_error(folder, error.value());
   const fs::path resolved = fs::weakly_canonical(root / path, error);
   if (error) throw_read_error(folder / path, error.value());
-  const bool inside = std::mismatch(root.begin(), root.end(), resolved.begin(), resolved.end()).first == root.end();
+  const bool inside =
+      std::mismatch(root.begin(), root.end(), resolved.begin(), resolved.end()).first == root.end();
   if (!inside) {
     throw InputError((folder / path).string(), "is a link that leads out of the folder",
                      "put the file itself there");

@@ -20,7 +20,8 @@ Bytes read_file_start(const std::filesystem::path& file, std::size_t count);
 /// @throws InputError if it is missing, no regular file, unreadable or larger than `max_bytes`; IoError if the disk fails.
 Bytes read_file(const std::filesystem::path& file, std::uint64_t max_bytes);
 
-/// Writes a new file and waits until the disk has it. @throws IoError (disk full, quota, read-only, I/O error).
+/// Writes a new file; AtomicFolder::commit waits until the disk has it.
+/// @throws IoError (disk full, quota, read-only, I/O error).
 void write_file(const std::filesystem::path& file, const void* data, std::size_t size);
 void write_file(const std::filesystem::path& file, const std::string& text);
 

@@ -79,20 +79,24 @@ std::string to_string(const ColorResponse& response) {
 
 double decode(const ColorResponse& response, double value) {
   switch (response.kind) {
-    case ColorResponse::Kind::linear: return value;
+    case ColorResponse::Kind::linear:
+      return value;
     case ColorResponse::Kind::srgb:  // IEC 61966-2-1
       return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-    case ColorResponse::Kind::gamma: return std::pow(value, response.gamma);
+    case ColorResponse::Kind::gamma:
+      return std::pow(value, response.gamma);
   }
   return value;
 }
 
 double encode(const ColorResponse& response, double radiance) {
   switch (response.kind) {
-    case ColorResponse::Kind::linear: return radiance;
+    case ColorResponse::Kind::linear:
+      return radiance;
     case ColorResponse::Kind::srgb:
       return radiance <= 0.0031308 ? radiance * 12.92 : 1.055 * std::pow(radiance, 1 / 2.4) - 0.055;
-    case ColorResponse::Kind::gamma: return std::pow(radiance, 1 / response.gamma);
+    case ColorResponse::Kind::gamma:
+      return std::pow(radiance, 1 / response.gamma);
   }
   return radiance;
 }
@@ -101,8 +105,8 @@ cv::Mat3f linear_color(const LightStack& stack, const Frame& frame) {
   if (frame.color.empty()) return {};
   const bool deep = frame.color.depth() == CV_16U;
   const std::vector<float> table = decoding_table(stack.color_response, deep ? 65536 : 256);
-  cv::Mat3f linear = deep ? decode_image<std::uint16_t>(frame.color, table)
-                          : decode_image<std::uint8_t>(frame.color, table);
+  cv::Mat3f linear =
+      deep ? decode_image<std::uint16_t>(frame.color, table) : decode_image<std::uint8_t>(frame.color, table);
   undo_crosstalk(stack.color_crosstalk, linear);
   return linear;
 }

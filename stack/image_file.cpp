@@ -13,14 +13,17 @@ namespace rakelight {
 namespace fs = std::filesystem;
 namespace {
 
-std::string to_text(cv::Size size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+std::string to_text(cv::Size size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
 
 PngHeader checked_header(const fs::path& file, const ExpectedSize& size) {
   const Bytes start = read_file_start(file, kPngHeaderBytes);
   const PngHeader header = parse_png_header(start.data(), start.size(), file.string());
   const cv::Size actual(static_cast<int>(header.width), static_cast<int>(header.height));
   if (size && *size != actual) {
-    throw InputError(file.string(), "is " + to_text(actual) + " pixels where " + to_text(*size) + " are expected",
+    throw InputError(file.string(),
+                     "is " + to_text(actual) + " pixels where " + to_text(*size) + " are expected",
                      "use images of one size that fit the cameras");
   }
   return header;
@@ -54,7 +57,8 @@ cv::Mat decode_png(const fs::path& file, const PngHeader& header) {
 cv::Mat read_color_png(const fs::path& file, const ExpectedSize& size) {
   const PngHeader header = checked_header(file, size);
   if (header.color != PngHeader::Color::rgb) {
-    throw InputError(file.string(), "is not an RGB image", "save it as 8- or 16-bit RGB without transparency");
+    throw InputError(file.string(), "is not an RGB image",
+                     "save it as 8- or 16-bit RGB without transparency");
   }
   cv::Mat image = decode_png(file, header);
   if (image.type() != CV_8UC3 && image.type() != CV_16UC3) {

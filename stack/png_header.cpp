@@ -40,12 +40,16 @@ bool is_type(const unsigned char* type, const char* name) { return std::equal(ty
 
 bool allowed(int color, int bits) {
   switch (color) {
-    case 0: return bits == 1 || bits == 2 || bits == 4 || bits == 8 || bits == 16;
-    case 3: return bits == 1 || bits == 2 || bits == 4 || bits == 8;
+    case 0:
+      return bits == 1 || bits == 2 || bits == 4 || bits == 8 || bits == 16;
+    case 3:
+      return bits == 1 || bits == 2 || bits == 4 || bits == 8;
     case 2:
     case 4:
-    case 6: return bits == 8 || bits == 16;
-    default: return false;
+    case 6:
+      return bits == 8 || bits == 16;
+    default:
+      return false;
   }
 }
 
@@ -80,7 +84,8 @@ void check_png_bytes(const unsigned char* data, std::size_t size, const std::str
     if (length > size - at - 12) break;
     const unsigned char* type = data + at + 4;
     if (crc(type, length + 4) != big_endian(type + 4 + length)) {
-      throw InputError(file, "is damaged (checksum of the PNG chunk at byte " + std::to_string(at) + " is wrong)",
+      throw InputError(file,
+                       "is damaged (checksum of the PNG chunk at byte " + std::to_string(at) + " is wrong)",
                        kCopyAgain);
     }
     at += length + 12;

@@ -58,8 +58,9 @@ struct LitCheck {
 struct Frame {
   int index = 0;
   std::optional<std::string> light;  ///< id in LightStack::lights
-  cv::Mat color;   ///< CV_8UC3 or CV_16UC3, channels R, G, B, encoded by LightStack::color_response; may be empty
-  cv::Mat1w depth; ///< raw sensor units (metres = raw * depth_unit_m), 0 = no reading; may be empty
+  cv::Mat
+      color;  ///< CV_8UC3 or CV_16UC3, channels R, G, B, encoded by LightStack::color_response; may be empty
+  cv::Mat1w depth;  ///< raw sensor units (metres = raw * depth_unit_m), 0 = no reading; may be empty
   Timestamp color_time, depth_time, led_edge_time;
   std::optional<LitCheck> lit_check;
 };
@@ -93,9 +94,9 @@ struct LightStack {
   std::optional<WhiteBalance> white_balance;
   std::vector<Light> lights;
   std::vector<Frame> frames;
-  cv::Mat1b mask;  ///< colour or depth size; 255 = object; empty: every pixel with depth
-  std::string origin;         ///< the folder it was read from (for messages), or empty
-  std::string unknown_keys;   ///< manifest keys this version does not know, as JSON text: kept on writing
+  cv::Mat1b mask;            ///< colour or depth size; 255 = object; empty: every pixel with depth
+  std::string origin;        ///< the folder it was read from (for messages), or empty
+  std::string unknown_keys;  ///< manifest keys this version does not know, as JSON text: kept on writing
 };
 
 /// A lamp as it truly is. A unit of `strength` gives a facing surface of albedo 1 a radiance of 1 (encoded full scale):
@@ -104,16 +105,16 @@ struct LampTruth {
   std::string id;  ///< as in LightStack::lights
   LampColor color = LampColor::white;
   bool near = false;
-  std::optional<Eigen::Vector3d> position_m;              ///< camera coordinates; near lamps only
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();    ///< unit, from the object's centre towards the lamp
-  Eigen::Vector3d strength = Eigen::Vector3d::Zero();     ///< linear RGB
+  std::optional<Eigen::Vector3d> position_m;            ///< camera coordinates; near lamps only
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, from the object's centre towards the lamp
+  Eigen::Vector3d strength = Eigen::Vector3d::Zero();   ///< linear RGB
 };
 
 /// The right answer, from `simulate` or a laboratory scanner; NaN outside the object.
 struct GroundTruth {
-  cv::Mat1f depth;    ///< metres
-  cv::Mat3f normals;  ///< camera frame, unit length, n_z < 0 faces the camera; channels x, y, z
-  cv::Mat3f albedo;   ///< linear RGB; may be empty
+  cv::Mat1f depth;               ///< metres
+  cv::Mat3f normals;             ///< camera frame, unit length, n_z < 0 faces the camera; channels x, y, z
+  cv::Mat3f albedo;              ///< linear RGB; may be empty
   std::vector<LampTruth> lamps;  ///< truth/lamps.json; may be empty
 };
 

@@ -25,8 +25,9 @@ std::vector<double> parse_row(std::string_view line, const std::string& where) {
     double value = 0;
     const auto parsed = std::from_chars(line.data(), line.data() + length, value);
     if (parsed.ec != std::errc() || parsed.ptr != line.data() + length || !std::isfinite(value)) {
-      throw InputError(where, "'" + std::string(line.substr(0, std::min<std::size_t>(length, 20))) + "' is no number",
-                       "write plain decimal numbers");
+      throw InputError(
+          where, "'" + std::string(line.substr(0, std::min<std::size_t>(length, 20))) + "' is no number",
+          "write plain decimal numbers");
     }
     row.push_back(value);
     line.remove_prefix(length);
@@ -41,7 +42,8 @@ std::vector<std::vector<double>> read_number_rows(const std::filesystem::path& f
   std::vector<std::vector<double>> rows;
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t length = std::min(text.find('\n'), text.size());
-    std::vector<double> row = parse_row(text.substr(0, length), file.string() + " line " + std::to_string(line));
+    std::vector<double> row =
+        parse_row(text.substr(0, length), file.string() + " line " + std::to_string(line));
     if (!row.empty()) rows.push_back(std::move(row));
     text.remove_prefix(std::min(length + 1, text.size()));
   }

@@ -26,7 +26,8 @@ struct Calibration {
 Calibration read_calibration(const fs::path& file) {
   const auto rows = read_number_rows(file);
   const std::string cure = "write three rows of the camera matrix and a row 'scale,min,max'";
-  if (rows.size() != 4 || rows[0].size() != 3 || rows[1].size() != 3 || rows[2].size() != 3 || rows[3].size() != 3) {
+  if (rows.size() != 4 || rows[0].size() != 3 || rows[1].size() != 3 || rows[2].size() != 3 ||
+      rows[3].size() != 3) {
     throw InputError(file.string(), "does not have four rows of three numbers", cure);
   }
   Calibration result;
@@ -42,7 +43,8 @@ Calibration read_calibration(const fs::path& file) {
   }
   const double scale = rows[3][0];
   if (scale < 1 || scale > 64 || scale != std::floor(scale)) {
-    throw InputError(file.string(), "scale is no whole number from 1 to 64", "write colour size / depth size there");
+    throw InputError(file.string(), "scale is no whole number from 1 to 64",
+                     "write colour size / depth size there");
   }
   result.scale = static_cast<int>(scale);
   if (result.min_mm < 0 || result.max_mm <= result.min_mm) {
@@ -52,7 +54,8 @@ Calibration read_calibration(const fs::path& file) {
 }
 
 /// Files `<prefix><number>.png` of a subfolder by their number, so that 2 comes before 10.
-std::map<int, fs::path> numbered_images(const fs::path& folder, const std::string& sub, const std::string& prefix) {
+std::map<int, fs::path> numbered_images(const fs::path& folder, const std::string& sub,
+                                        const std::string& prefix) {
   std::map<int, fs::path> result;
   std::error_code error;
   for (fs::directory_iterator entry(path_inside(folder, sub), error), end; !error && entry != end;
@@ -65,10 +68,13 @@ std::map<int, fs::path> numbered_images(const fs::path& folder, const std::strin
     const auto parsed = std::from_chars(stem.data() + prefix.size(), last, number);
     if (parsed.ec != std::errc() || parsed.ptr != last || number < 0) continue;
     if (!result.emplace(number, path_inside(folder, sub + "/" + name)).second) {
-      throw InputError(entry->path().string(), "bears the number of another image", "number the images once each");
+      throw InputError(entry->path().string(), "bears the number of another image",
+                       "number the images once each");
     }
   }
-  if (error) throw InputError((folder / sub).string(), "cannot be listed (" + error.message() + ")", "check the folder");
+  if (error)
+    throw InputError((folder / sub).string(), "cannot be listed (" + error.message() + ")",
+                     "check the folder");
   return result;
 }
 
@@ -105,7 +111,8 @@ void add_depth_frames(const fs::path& folder, const Calibration& calibration, cv
                       std::map<int, Frame>& frames) {
   const std::map<int, fs::path> files = numbered_images(folder, "Depth", "z0_");
   if (files.empty()) {
-    throw InputError((folder / "Depth").string(), "has no image z0_<number>.png", "put the sensor's depth there");
+    throw InputError((folder / "Depth").string(), "has no image z0_<number>.png",
+                     "put the sensor's depth there");
   }
   for (const auto& [number, file] : files) {
     const cv::Mat1w raw = read_depth_png(file, size);
@@ -152,7 +159,8 @@ LightStack import_photometric_sr(const fs::path& folder) {
     frame.index = number;
     stack.frames.push_back(std::move(frame));
   }
-  if (fs::exists(folder / "response.txt")) stack.color_response = read_response(path_inside(folder, "response.txt"));
+  if (fs::exists(folder / "response.txt"))
+    stack.color_response = read_response(path_inside(folder, "response.txt"));
   if (fs::exists(folder / "mask.png")) stack.mask = read_mask_png(path_inside(folder, "mask.png"));
   return stack;
 }
