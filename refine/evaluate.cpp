@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "refine/depth_normals.h"
 #include "stack/errors.h"
 
 namespace rakelight {
@@ -17,12 +18,12 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 bool finite(const cv::Vec3f& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 
-[[noreturn]] void refuse_sizes(const cv::Size& result, const cv::Size& truth) {
+[[noreturn]] void refuse_sizes(const std::string& what, const cv::Size& size, const cv::Size& other) {
   const auto text = [](const cv::Size& s) {
     return std::to_string(s.width) + "x" + std::to_string(s.height);
   };
-  throw InputError("the result's depth",
-                   "its size " + text(result) + " and the truth's " + text(truth) + " have no whole ratio",
+  throw InputError("the result's " + what,
+                   "its size " + text(size) + " does not fit " + text(other) + " of what it is compared with",
                    "evaluate against the truth of the stack that was refined");
 }
 
@@ -78,23 +79,8 @@ Compared on_finer_grid(const Camera& camera, const cv::Mat1f& depth, const cv::M
             finer_normals(normals, ratio), truth.normals};
   }
   const int ratio = whole_ratio(truth.depth.size(), depth.size());
-  if (ratio == 0) refuse_sizes(depth.size(), truth.depth.size());
+  if (ratio == 0) refuse_sizes("depth", depth.size(), truth.depth.size());
   return {camera, depth, finer_depth(truth.depth, ratio), normals, finer_normals(truth.normals, ratio)};
-}
-
-/// Difference of log depth towards the next pixel (dx, dy), towards the previous one at borders, 0 where alone.
-double log_slope(const cv::Mat1d& log_depth, const cv::Mat1b& mask, int x, int y, int dx, int dy) {
-  const cv::Rect grid({0, 0}, mask.size());
-  const cv::Point here(x, y), next(x + dx, y + dy), last(x - dx, y - dy);
-  if (grid.contains(next) && mask(next)) return log_depth(next) - log_depth(here);
-  if (grid.contains(last) && mask(last)) return log_depth(here) - log_depth(last);
-  return 0;
-}
-
-/// Eq. (5), with the slopes p, q of log depth.
-cv::Vec3d normal_from_slopes(const Camera& camera, int x, int y, double p, double q) {
-  const cv::Vec3d n(camera.fx * p, camera.fy * q, -1 - (x - camera.cx) * p - (y - camera.cy) * q);
-  return n / cv::norm(n);
 }
 
 double angle_deg(const cv::Vec3d& a, const cv::Vec3d& b) {
@@ -120,52 +106,46 @@ double median(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
-/// 255 where the truth exists; `both` where the result does, too.
-void mark(const Compared& c, cv::Mat1b& truth, cv::Mat1b& both) {
-  truth.create(c.depth.size());
-  both.create(c.depth.size());
+/// Forgets depth where there is no truth to compare with; returns the number of pixels that have truth.
+int keep_comparable(Compared& c) {
+  c.depth = c.depth.clone();
+  int count = 0;
   for (int y = 0; y < c.depth.rows; ++y) {
     for (int x = 0; x < c.depth.cols; ++x) {
-      const float z = c.depth(y, x);
-      truth(y, x) = std::isfinite(c.true_depth(y, x)) && finite(c.true_normals(y, x)) ? 255 : 0;
-      both(y, x) = truth(y, x) && std::isfinite(z) && z > 0 ? 255 : 0;
+      const bool has_truth = std::isfinite(c.true_depth(y, x)) && finite(c.true_normals(y, x));
+      if (has_truth) ++count;
+      if (!has_truth || !(c.depth(y, x) > 0)) c.depth(y, x) = kNaN;
     }
   }
+  return count;
 }
 
 }  // namespace
 
 Evaluation evaluate(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals,
                     const GroundTruth& truth) {
-  const Compared c = on_finer_grid(camera, depth, normals, truth);
-  cv::Mat1b is_true, mask;
-  mark(c, is_true, mask);
-  const int count = cv::countNonZero(mask);
-  if (count == 0) {
-    throw InputError("the result's depth", "it shares no pixel with the truth",
-                     "evaluate against the truth of the stack that was refined");
-  }
-
-  cv::Mat1d log_depth(c.depth.size(), 0.0);
-  for (int y = 0; y < mask.rows; ++y) {
-    for (int x = 0; x < mask.cols; ++x) {
-      if (mask(y, x)) log_depth(y, x) = std::log(static_cast<double>(c.depth(y, x)));
-    }
-  }
+  if (!normals.empty() && normals.size() != depth.size())
+    refuse_sizes("normals", normals.size(), depth.size());
+  Compared c = on_finer_grid(camera, depth, normals, truth);
+  const int truth_count = keep_comparable(c);
+  const cv::Mat3d depth_normals = normals_from_depth(c.camera, c.depth);
 
   std::vector<double> depth_errors_mm, angles, own_angles;
-  for (int y = 0; y < mask.rows; ++y) {
-    for (int x = 0; x < mask.cols; ++x) {
-      if (!mask(y, x)) continue;
+  for (int y = 0; y < c.depth.rows; ++y) {
+    for (int x = 0; x < c.depth.cols; ++x) {
+      if (!std::isfinite(c.depth(y, x))) continue;
       const cv::Vec3d true_normal = c.true_normals(y, x);
       const double z = c.depth(y, x), true_z = c.true_depth(y, x);
       depth_errors_mm.push_back((z - true_z) * 1e3);
-      const double p = log_slope(log_depth, mask, x, y, 1, 0), q = log_slope(log_depth, mask, x, y, 0, 1);
-      angles.push_back(angle_deg(normal_from_slopes(c.camera, x, y, p, q), true_normal));
+      angles.push_back(angle_deg(depth_normals(y, x), true_normal));
       if (!c.normals.empty() && finite(c.normals(y, x))) {
         own_angles.push_back(angle_deg(c.normals(y, x), true_normal));
       }
     }
+  }
+  if (angles.empty()) {
+    throw InputError("the result's depth", "it shares no pixel with the truth",
+                     "evaluate against the truth of the stack that was refined");
   }
 
   Evaluation result;
@@ -174,7 +154,7 @@ Evaluation evaluate(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3
   result.mae_deg = mean(angles);
   result.median_deg = median(angles);
   result.own_normals_mae_deg = mean(own_angles);
-  result.completeness = static_cast<double>(count) / cv::countNonZero(is_true);
+  result.completeness = static_cast<double>(angles.size()) / truth_count;
   return result;
 }
 

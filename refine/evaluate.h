@@ -12,14 +12,15 @@ namespace rakelight {
 struct Evaluation {
   double rmse_mm = 0;           ///< root mean square depth error
   double rmse_unbiased_mm = 0;  ///< the same after removing the mean error
-  double mae_deg = 0;           ///< mean angle to the true normal, of normals from depth by forward differences
+  double mae_deg = 0;  ///< mean angle to the true normal, of normals from depth by forward differences
   double median_deg = 0;
   double own_normals_mae_deg = 0;  ///< of the normals given, NaN without
-  double completeness = 0;      ///< share of truth pixels that have depth
+  double completeness = 0;         ///< share of truth pixels that have depth
 };
 
 /// @param camera of the depth grid  @param depth metres, NaN = none  @param normals may be empty
 /// Grids of different size are compared on the finer one. @throws InputError when the sizes have no integer ratio.
-Evaluation evaluate(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals, const GroundTruth& truth);
+Evaluation evaluate(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals,
+                    const GroundTruth& truth);
 
 }  // namespace rakelight

@@ -10,11 +10,23 @@
 
 namespace rakelight {
 
-/// Writes depth, normals, albedo, mesh.ply and result.json whole or not at all: a temporary sibling is filled under
-/// a lock, then renamed. @throws BusyError, IoError; InputError if `folder` exists and is not a result.
+/// Writes depth, normals, albedo, mesh.ply, before_after.png and result.json whole or not at all: a temporary sibling
+/// is filled under a lock, then renamed.
+/// @throws BusyError, IoError; InputError if `folder` exists and is neither empty nor a result.
 void write_result(const RefineResult& result, const std::filesystem::path& folder);
 
 /// Refuses early what write_result would refuse, so that a long run does not end in vain. @throws as write_result.
 void check_result_folder(const std::filesystem::path& folder);
+
+/// The maps of a result folder, all on the camera's grid.
+struct StoredResult {
+  Camera camera;
+  cv::Mat1f depth;          ///< metres, NaN where there is no surface
+  cv::Mat1f initial_depth;  ///< the sensor's, before refinement, metres, NaN outside
+  cv::Mat3f normals;        ///< camera frame, NaN outside; channels x, y, z
+};
+
+/// Reads a result folder. @throws InputError naming the file, the fault and the cure; IoError.
+StoredResult read_result(const std::filesystem::path& folder);
 
 }  // namespace rakelight

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/refine.h"
+
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/config_file.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "refine/option_fields.h"
+#include "refine/output/result_io.h"
+#include "refine/output/result_json.h"
+#include "stack/color_response.h"
+#include "stack/errors.h"
+#include "stack/stack_io.h"
+
+namespace rakelight::cli {
+namespace {
+
+constexpr int kNotConverged = 7;
+
+struct Arguments {
+  std::filesystem::path stack, output, config;
+  std::optional<std::string> method, preset, mask, response;
+  std::optional<int> scale, iterations, threads;
+  bool json = false;
+};
+
+constexpr const char* kFooter = R"(Examples:
+  rakelight refine my-scan -o my-surface                  as fine as the colour images, robust preset
+  rakelight refine my-scan -o out --scale 1               on the depth camera's own grid
+  rakelight refine my-scan -o out --preset paper          the paper to the letter
+  rakelight refine my-scan -o out --mask object.png       another mask; 'auto': every pixel with depth
+  rakelight refine my-scan -o out --config tuned.toml     parameters by their names in result.json
+  rakelight refine my-scan -o out --json | jq .quality    the summary for scripts)";
+
+/// The value whose name is `text`; the command line has already refused what is none.
+template <class Values>
+auto value_named(const Values& values, const std::optional<std::string>& text) {
+  std::optional<typename Values::value_type> found;
+  for (const auto value : values) {
+    if (text && *text == to_string(value)) found = value;
+  }
+  return found;
+}
+
+template <class Values>
+std::vector<std::string> names_of(const Values& values) {
+  std::vector<std::string> names;
+  for (const auto value : values) names.push_back(to_string(value));
+  return names;
+}
+
+RefineOptions options_of(const Arguments& arguments) {
+  RefineOptions options = read_options(
+      arguments.config, {value_named(kPresets, arguments.preset), value_named(kMethods, arguments.method)});
+  options.scale = arguments.scale.value_or(options.scale);
+  options.max_iterations = arguments.iterations.value_or(options.max_iterations);
+  options.threads = arguments.threads.value_or(options.threads);
+  return options;
+}
+
+LightStack stack_of(const Arguments& arguments) {
+  LightStack stack = read_stack(arguments.stack);
+  if (arguments.response) stack.color_response = parse_color_response(*arguments.response);
+  if (arguments.mask) stack.mask = *arguments.mask == "auto" ? cv::Mat1b() : read_mask(*arguments.mask);
+  return stack;
+}
+
+RefineResult refine_with_bar(const LightStack& stack, const RefineOptions& options) {
+  ProgressBar bar;
+  return refine_depth(stack, options, [&bar](const Progress& progress) {
+    bar.show(progress);
+    return !interrupted();
+  });
+}
+
+void print_json(const RefineResult& result, const std::filesystem::path& folder) {
+  auto summary = nlohmann::ordered_json::parse(result_json(result));
+  summary["folder"] = folder.string();
+  std::cout << summary.dump(2) << "\n";
+}
+
+void print_report(const RefineResult& result, const std::filesystem::path& folder) {
+  std::cout << result.message << "\n"
+            << folder.string() << ": " << result.camera.width << "x" << result.camera.height << " (scale "
+            << result.scale << "), " << result.iterations.size() << " iterations\n"
+            << "  surface  " << (folder / "mesh.ply").string() << "\n"
+            << "  picture  " << (folder / "before_after.png").string() << "\n";
+}
+
+int run(const Arguments& arguments) {
+  catch_interrupts();
+  const RefineOptions options = options_of(arguments);
+  check_result_folder(arguments.output);
+  const LightStack stack = stack_of(arguments);
+  const RefineResult result = refine_with_bar(stack, options);
+  if (interrupted()) throw Cancelled();
+  for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
+  write_result(result, arguments.output);
+  arguments.json ? print_json(result, arguments.output) : print_report(result, arguments.output);
+  if (result.termination != Termination::diverged) return 0;
+  spdlog::warn("refine: did not converge: {}", result.message);
+  return kNotConverged;
+}
+
+}  // namespace
+
+void add_refine_command(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("refine", "Refine a stack's depth by photometric stereo");
+  command->footer(kFooter);
+  command->add_option("STACK", arguments->stack, "Stack folder, or a source folder of an importer's layout")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "Result folder to write")
+      ->required()
+      ->type_name("OUT");
+  command->add_option("--method", arguments->method, "How to refine")
+      ->check(CLI::IsMember(names_of(kMethods)));
+  command
+      ->add_option("--preset", arguments->preset,
+                   "robust (default): for real data; paper: the paper to the letter")
+      ->check(CLI::IsMember(names_of(kPresets)));
+  command
+      ->add_option("--scale", arguments->scale,
+                   "Refined grid / depth grid, 1 to 4; default: as fine as the colour images")
+      ->check(CLI::Range(1, 4));
+  command->add_option("--mask", arguments->mask, "Mask image (255 = object), or auto: every pixel with depth")
+      ->type_name("FILE|auto");
+  command
+      ->add_option("--response", arguments->response,
+                   "What colour values mean, instead of what the stack says")
+      ->type_name("linear|srgb|GAMMA");
+  command->add_option("--iterations", arguments->iterations, "Outer iterations at most")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--config", arguments->config, "Parameters from a TOML file; options here override it")
+      ->type_name("FILE");
+  command->add_option("--threads", arguments->threads, "Threads; 0 (default): all; the result is the same")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--json", arguments->json, "Print one JSON object on stdout and nothing else there");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace rakelight::cli

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The one list of every parameter: what result.json records and what a configuration file may set. A field that is
+// added to options.h is added here, nowhere else.
+#pragma once
+
+#include <array>
+
+#include "refine/options.h"
+
+namespace rakelight {
+
+/// Every value of an enumeration that is an option, for reading it from text by to_string.
+inline constexpr std::array kMethods{Method::multi_light};
+inline constexpr std::array kPresets{Preset::paper, Preset::robust};
+
+/// Calls visit(name, field) for every parameter; a dot in a name separates a group from its member.
+/// Fields are bool, int, double, Method or Preset. @param options RefineOptions, const or not
+template <class Options, class Visitor>
+void for_each_option(Options& options, Visitor&& visit) {
+  visit("method", options.method);
+  visit("preset", options.preset);
+  visit("scale", options.scale);
+  visit("max_iterations", options.max_iterations);
+  visit("threads", options.threads);
+  visit("preprocess.bilateral_sigma_px", options.preprocess.bilateral_sigma_px);
+  visit("preprocess.bilateral_sigma_noise", options.preprocess.bilateral_sigma_noise);
+}
+
+}  // namespace rakelight

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/output/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "refine/depth_normals.h"
+#include "refine/output/images.h"
+
+namespace rakelight {
+namespace {
+
+constexpr int kPanelSide = 960;  ///< pixels, longest side of one of the four pictures
+constexpr int kCaptionHeight = 36;
+
+/// From the surface to the lamps: one low at the upper left, a weak one at the camera.
+const cv::Vec3f kRakingLamp = cv::normalize(cv::Vec3f(-1.0f, -0.7f, -0.55f));
+constexpr float kRakingShare = 0.85f, kHeadShare = 0.15f;
+
+cv::Rect object_box(const cv::Mat1f& depth) {
+  cv::Mat1b valid(depth.size());
+  std::transform(depth.begin(), depth.end(), valid.begin(),
+                 [](float z) { return static_cast<uchar>(std::isfinite(z) ? 255 : 0); });
+  const cv::Rect box = cv::boundingRect(valid);
+  const int margin = 4;
+  const cv::Rect wide(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin);
+  return box.empty() ? cv::Rect({0, 0}, depth.size()) : wide & cv::Rect({0, 0}, depth.size());
+}
+
+cv::Mat3b shaded(const cv::Mat3f& normals) {
+  cv::Mat3b picture;
+  cv::cvtColor(raking_light(normals), picture, cv::COLOR_GRAY2RGB);
+  return picture;
+}
+
+cv::Mat3b painted(const cv::Mat3f& normals) {
+  cv::Mat3b picture;
+  normals_picture(normals).convertTo(picture, CV_8U, 1.0 / 257.0);
+  return picture;
+}
+
+/// Crops to the object, shrinks or (small objects) enlarges by whole pixels, and writes the caption above.
+cv::Mat3b panel(const cv::Mat3b& picture, const cv::Rect& box, const std::string& caption) {
+  const double fit = static_cast<double>(kPanelSide) / std::max(box.width, box.height);
+  const double zoom = fit >= 1 ? std::floor(std::min(fit, 4.0)) : fit;
+  cv::Mat3b scaled;
+  cv::resize(picture(box), scaled, {}, zoom, zoom, zoom < 1 ? cv::INTER_AREA : cv::INTER_NEAREST);
+  cv::Mat3b result(scaled.rows + kCaptionHeight, scaled.cols, cv::Vec3b::all(0));
+  scaled.copyTo(result(cv::Rect({0, kCaptionHeight}, scaled.size())));
+  cv::putText(result, caption, {8, 25}, cv::FONT_HERSHEY_SIMPLEX, 0.7, cv::Scalar::all(235), 1, cv::LINE_AA);
+  return result;
+}
+
+cv::Mat3b side_by_side(const cv::Mat3b& left, const cv::Mat3b& right) {
+  cv::Mat3b both;
+  cv::hconcat(left, right, both);
+  return both;
+}
+
+}  // namespace
+
+cv::Mat1b raking_light(const cv::Mat3f& normals) {
+  cv::Mat1b picture(normals.size(), static_cast<uchar>(0));
+  for (int y = 0; y < normals.rows; ++y) {
+    for (int x = 0; x < normals.cols; ++x) {
+      const cv::Vec3f& n = normals(y, x);
+      if (!std::isfinite(n[0]) || !std::isfinite(n[1]) || !std::isfinite(n[2])) continue;
+      const float light =
+          kRakingShare * std::max(0.0f, n.dot(kRakingLamp)) + kHeadShare * std::max(0.0f, -n[2]);
+      picture(y, x) = cv::saturate_cast<uchar>(20.0f + 235.0f * std::sqrt(light));
+    }
+  }
+  return picture;
+}
+
+cv::Mat3b before_after_picture(const RefineResult& result) {
+  const cv::Rect box = object_box(result.depth);
+  cv::Mat3f before;
+  normals_from_depth(result.camera, result.initial_depth).convertTo(before, CV_32F);
+  const cv::Mat3f& after = result.normals;
+  const cv::Mat3b top =
+      side_by_side(panel(shaded(before), box, "sensor depth"), panel(shaded(after), box, "refined"));
+  const cv::Mat3b bottom = side_by_side(panel(painted(before), box, "sensor normals"),
+                                        panel(painted(after), box, "refined normals"));
+  cv::Mat3b picture;
+  cv::vconcat(top, bottom, picture);
+  return picture;
+}
+
+}  // namespace rakelight

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Pictures in which a person sees what the refinement did.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "refine/refine.h"
+
+namespace rakelight {
+
+/// The surface as grey plaster under a lamp that grazes it from the upper left; black where there is none.
+/// @param normals camera frame, unit length, NaN outside
+cv::Mat1b raking_light(const cv::Mat3f& normals);
+
+/// Sensor depth on the left, refined on the right; above in raking light, below as normals. R, G, B; cropped to the
+/// object and at most some 2000 pixels wide.
+cv::Mat3b before_after_picture(const RefineResult& result);
+
+}  // namespace rakelight

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/output/result_json.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/version.hpp>
+
+#include "refine/option_fields.h"
+#include "refine/output/images.h"
+
+namespace rakelight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json json_value(const T& value) {
+  if constexpr (std::is_enum_v<T>) {
+    return to_string(value);
+  } else {
+    return value;
+  }
+}
+
+/// "depth.sensor_weight" becomes {"depth": {"sensor_weight": ...}}.
+Json json_of(const RefineOptions& options) {
+  Json json;
+  for_each_option(options, [&json](const std::string& name, const auto& value) {
+    std::string pointer = "/" + name;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    json[Json::json_pointer(pointer)] = json_value(value);
+  });
+  return json;
+}
+
+Json json_of(const Camera& camera) {
+  return {{"width", camera.width},
+          {"height", camera.height},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"distortion", camera.distortion}};
+}
+
+Json json_of(const LightEstimate& light) {
+  Json rows = Json::array();
+  for (int c = 0; c < 3; ++c)
+    rows.push_back({light.sh(c, 0), light.sh(c, 1), light.sh(c, 2), light.sh(c, 3)});
+  return {{"id", light.id}, {"frame", light.frame_index}, {"sh_rgb", rows}};
+}
+
+Json json_of(const IterationReport& iteration) {
+  return {{"index", iteration.index},
+          {"energy", iteration.energy},
+          {"energy_before_depth", iteration.energy_before_depth},
+          {"depth_change_mm", iteration.depth_change_mm},
+          {"residual_scale", iteration.residual_scale},
+          {"backtracks", iteration.backtracks},
+          {"seconds", iteration.seconds}};
+}
+
+template <class T>
+Json list_of(const std::vector<T>& items) {
+  Json list = Json::array();
+  for (const T& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+Json versions() {
+  const auto eigen = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                     std::to_string(EIGEN_MINOR_VERSION);
+  return {{"rakelight", RAKELIGHT_VERSION},
+          {"opencv", CV_VERSION},
+          {"eigen", eigen},
+          {"cholmod", RAKELIGHT_CHOLMOD_VERSION}};
+}
+
+}  // namespace
+
+std::string to_string(Termination termination) {
+  switch (termination) {
+    case Termination::converged:
+      return "converged";
+    case Termination::max_iterations:
+      return "max_iterations";
+    case Termination::diverged:
+      return "diverged";
+  }
+  return "unknown";
+}
+
+std::string result_json(const RefineResult& result) {
+  const Json json = {{"format", kResultFormat},
+                     {"version", kResultVersion},
+                     {"termination", to_string(result.termination)},
+                     {"message", result.message},
+                     {"warnings", result.warnings},
+                     {"camera", json_of(result.camera)},
+                     {"scale", result.scale},
+                     {"depth_png_unit_m", depth_unit(result.depth)},
+                     {"albedo_png_white", albedo_white(result.albedo)},
+                     {"quality", result.quality},
+                     {"lights", list_of(result.lights)},
+                     {"iterations", list_of(result.iterations)},
+                     {"options", json_of(result.options)},
+                     {"versions", versions()}};
+  // Texts come from the stack's manifest: what is no UTF-8 there is replaced, not refused after the work is done.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rakelight
