@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stack/image_file.h"
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -17,16 +18,29 @@ std::string to_text(cv::Size size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
 
-PngHeader checked_header(const fs::path& file, const ExpectedSize& size) {
+void check_size(const fs::path& file, cv::Size actual, const std::vector<cv::Size>& allowed) {
+  if (allowed.empty() || std::find(allowed.begin(), allowed.end(), actual) != allowed.end()) return;
+  throw InputError(file.string(),
+                   "is " + to_text(actual) + " pixels where " + to_text(allowed[0]) + " are expected",
+                   "use images of the sizes the cameras have");
+}
+
+std::vector<cv::Size> as_list(const ExpectedSize& size) {
+  return size ? std::vector<cv::Size>{*size} : std::vector<cv::Size>{};
+}
+
+PngHeader checked_header(const fs::path& file, const std::vector<cv::Size>& sizes) {
   const Bytes start = read_file_start(file, kPngHeaderBytes);
   const PngHeader header = parse_png_header(start.data(), start.size(), file.string());
-  const cv::Size actual(static_cast<int>(header.width), static_cast<int>(header.height));
-  if (size && *size != actual) {
-    throw InputError(file.string(),
-                     "is " + to_text(actual) + " pixels where " + to_text(*size) + " are expected",
-                     "use images of one size that fit the cameras");
-  }
+  check_size(file, cv::Size(static_cast<int>(header.width), static_cast<int>(header.height)), sizes);
   return header;
+}
+
+/// Decodes checked bytes as they are; empty if OpenCV cannot.
+cv::Mat decode(const Bytes& bytes) {
+  try {
+    return cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) { return {}; }  // each caller says which file it was
 }
 
 /// Bytes a PNG of this header may have: incompressible pixels, and room for texts and colour profiles.
@@ -40,14 +54,8 @@ cv::Mat decode_png(const fs::path& file, const PngHeader& header) {
   // Parsed again: the file may have changed since its first bytes were read.
   const PngHeader now = parse_png_header(bytes.data(), bytes.size(), file.string());
   check_png_bytes(bytes.data(), bytes.size(), file.string());
-  cv::Mat image;
-  if (now.width == header.width && now.height == header.height) {
-    try {
-      image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-    } catch (const cv::Exception&) {
-      image.release();  // said below
-    }
-  }
+  const bool unchanged = now.width == header.width && now.height == header.height;
+  cv::Mat image = unchanged ? decode(bytes) : cv::Mat();
   if (image.empty()) throw InputError(file.string(), "cannot be decoded", "copy or record it again");
   return image;
 }
@@ -55,7 +63,7 @@ cv::Mat decode_png(const fs::path& file, const PngHeader& header) {
 }  // namespace
 
 cv::Mat read_color_png(const fs::path& file, const ExpectedSize& size) {
-  const PngHeader header = checked_header(file, size);
+  const PngHeader header = checked_header(file, as_list(size));
   if (header.color != PngHeader::Color::rgb) {
     throw InputError(file.string(), "is not an RGB image",
                      "save it as 8- or 16-bit RGB without transparency");
@@ -69,7 +77,7 @@ cv::Mat read_color_png(const fs::path& file, const ExpectedSize& size) {
 }
 
 cv::Mat1w read_depth_png(const fs::path& file, const ExpectedSize& size) {
-  const PngHeader header = checked_header(file, size);
+  const PngHeader header = checked_header(file, as_list(size));
   if (header.color != PngHeader::Color::gray || header.bit_depth != 16) {
     throw InputError(file.string(), "is not a 16-bit grey image", "save depth as 16-bit grey PNG");
   }
@@ -80,8 +88,8 @@ cv::Mat1w read_depth_png(const fs::path& file, const ExpectedSize& size) {
   return image;
 }
 
-cv::Mat1b read_mask_png(const fs::path& file) {
-  const PngHeader header = checked_header(file, {});
+cv::Mat1b read_mask_png(const fs::path& file, const std::vector<cv::Size>& sizes) {
+  const PngHeader header = checked_header(file, sizes);
   if (header.bit_depth > 8) {
     throw InputError(file.string(), "has 16 bits a channel", "save the mask as 8-bit grey, 255 = object");
   }
@@ -93,10 +101,13 @@ cv::Mat1b read_mask_png(const fs::path& file) {
 
 void write_png(const fs::path& file, const cv::Mat& image) {
   cv::Mat stored = image;
-  if (image.channels() == 3) cv::cvtColor(image, stored, cv::COLOR_RGB2BGR);
+  if (image.channels() == 3) {
+    stored = cv::Mat();  // conversion in place would turn the caller's pixels
+    cv::cvtColor(image, stored, cv::COLOR_RGB2BGR);
+  }
   Bytes bytes;
   // Encoded in memory because cv::imwrite does not notice a full disk.
-  if (!cv::imencode(".png", stored, bytes)) throw IoError("cannot encode " + file.string() + " as PNG");
+  if (!cv::imencode(".png", stored, bytes)) throw IoError("cannot encode " + file.string());
   write_file(file, bytes.data(), bytes.size());
 }
 

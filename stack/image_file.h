@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 namespace rakelight {
 
@@ -20,8 +21,8 @@ cv::Mat read_color_png(const std::filesystem::path& file, const ExpectedSize& si
 cv::Mat1w read_depth_png(const std::filesystem::path& file, const ExpectedSize& size = {});
 
 /// A mask of any PNG kind up to 8 bits a channel: 255 where its first channel is at least 128, else 0.
-/// @throws InputError, IoError.
-cv::Mat1b read_mask_png(const std::filesystem::path& file);
+/// @param sizes it may have; empty: any  @throws InputError, IoError.
+cv::Mat1b read_mask_png(const std::filesystem::path& file, const std::vector<cv::Size>& sizes = {});
 
 /// Writes a PNG: 8- or 16-bit, one channel or R, G, B. @throws IoError.
 void write_png(const std::filesystem::path& file, const cv::Mat& image);

@@ -6,6 +6,22 @@
 
 namespace rakelight {
 
+std::string to_string(LampColor color) {
+  switch (color) {
+    case LampColor::red:
+      return "red";
+    case LampColor::green:
+      return "green";
+    case LampColor::blue:
+      return "blue";
+    case LampColor::white:
+      return "white";
+    case LampColor::rgb:
+      return "rgb";
+  }
+  return "white";
+}
+
 Camera binned(const Camera& camera, double factor) {
   Camera result = camera;
   result.width = static_cast<int>(std::lround(camera.width / factor));

@@ -33,6 +33,7 @@ struct Camera {
 Camera binned(const Camera& camera, double factor);
 
 enum class LampColor { red, green, blue, white, rgb };
+std::string to_string(LampColor color);
 
 /// One lamp state of the rig: a single LED, or red, green and blue together (`rgb`).
 struct Light {

@@ -161,7 +161,9 @@ LightStack import_photometric_sr(const fs::path& folder) {
   }
   if (fs::exists(folder / "response.txt"))
     stack.color_response = read_response(path_inside(folder, "response.txt"));
-  if (fs::exists(folder / "mask.png")) stack.mask = read_mask_png(path_inside(folder, "mask.png"));
+  if (fs::exists(folder / "mask.png")) {
+    stack.mask = read_mask_png(path_inside(folder, "mask.png"), {color.size(), stack.depth_camera.size()});
+  }
   return stack;
 }
 
