@@ -109,6 +109,9 @@ int run(int argc, char** argv) {
   CLI::App program(kOverview, "rakelight");
   program.set_version_flag("--version", "rakelight " RAKELIGHT_VERSION);
   program.footer(kFooter);
+  add_import_command(program, exit_code);
+  add_info_command(program, exit_code);
+  add_verify_command(program, exit_code);
   program.require_subcommand(1);
   const int failure = parse_and_run(program, argc, argv);
   return flush_stdout(failure != 0 ? failure : exit_code);
