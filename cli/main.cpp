@@ -113,6 +113,9 @@ int run(int argc, char** argv) {
   add_info_command(program, exit_code);
   add_verify_command(program, exit_code);
   program.require_subcommand(1);
+#ifdef RAKELIGHT_HAS_SIMULATE
+  add_simulate_command(program, exit_code);
+#endif
   const int failure = parse_and_run(program, argc, argv);
   return flush_stdout(failure != 0 ? failure : exit_code);
 }

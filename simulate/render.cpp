@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "simulate/albedo.h"
+#include "simulate/image_sensor.h"
+
+namespace rakelight {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+/// The samples of pixel (u, v) that meet the object, on a regular grid of sub-pixels.
+void sample_pixel(const ShadingContext& context, const Camera& camera, int u, int v,
+                  std::vector<SurfaceSample>& samples) {
+  samples.clear();
+  const int n = context.options.image.samples;
+  for (int k = 0; k < n * n; ++k) {
+    const double du = (k % n + 0.5) / n - 0.5, dv = (k / n + 0.5) / n - 0.5;
+    const Eigen::Vector3f ray = pixel_ray(camera, u + du, v + dv);
+    if (const auto hit = context.tracer.trace(Eigen::Vector3f::Zero(), ray)) {
+      const auto& scene = context.options.scene;
+      samples.push_back(
+          {*hit, albedo_at(scene.albedo, hit->texture, context.options.seed), -ray.normalized()});
+    }
+  }
+}
+
+/// Mean radiance of a pixel; rays that miss the object see black.
+Eigen::Vector3f pixel_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
+                               const std::vector<LampTruth>& lamps) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const auto& sample : samples) sum += radiance(context, sample, lamps);
+  const int n = context.options.image.samples;
+  return sum / static_cast<float>(n * n);
+}
+
+void render_row(const ShadingContext& context, const Camera& camera, const std::vector<LampSet>& sets,
+                const ImageSensor& sensor, int v, RenderedImages& out) {
+  std::vector<SurfaceSample> samples;
+  for (int u = 0; u < camera.width; ++u) {
+    sample_pixel(context, camera, u, v, samples);
+    for (std::size_t k = 0; k < sets.size(); ++k) {
+      sensor.expose(pixel_radiance(context, samples, sets[k].lamps), static_cast<int>(k), {u, v},
+                    out.colors[k]);
+    }
+    if (samples.empty()) continue;
+    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+    for (const auto& sample : samples) mean += sample.albedo / static_cast<float>(samples.size());
+    out.albedo(v, u) = {mean.x(), mean.y(), mean.z()};
+  }
+}
+
+/// A lattice of about this many pixels stands for the image when the exposure is chosen.
+constexpr int kMeteredPixels = 30000;
+
+}  // namespace
+
+Eigen::Vector3f pixel_ray(const Camera& camera, double u, double v) {
+  return Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1).cast<float>();
+}
+
+double auto_exposure(const ShadingContext& context, const Camera& camera, const std::vector<LampSet>& sets) {
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(1.0 * camera.width * camera.height / kMeteredPixels)));
+  std::vector<float> peaks;
+  std::mutex mutex;
+  cv::parallel_for_({0, (camera.height + step - 1) / step}, [&](const cv::Range& rows) {
+    std::vector<SurfaceSample> samples;
+    std::vector<float> found;
+    for (int row = rows.start; row < rows.end; ++row) {
+      for (int u = 0; u < camera.width; u += step) {
+        sample_pixel(context, camera, u, row * step, samples);
+        if (samples.empty()) continue;
+        for (const auto& set : sets) {
+          if (!set.lamps.empty()) found.push_back(pixel_radiance(context, samples, set.lamps).maxCoeff());
+        }
+      }
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    peaks.insert(peaks.end(), found.begin(), found.end());
+  });
+  if (peaks.empty()) return 1;
+  const auto clipped =
+      static_cast<std::size_t>(context.options.image.clip_share * static_cast<double>(peaks.size()));
+  const auto nth = peaks.end() - 1 - static_cast<std::ptrdiff_t>(std::min(clipped, peaks.size() - 1));
+  std::nth_element(peaks.begin(), nth, peaks.end());
+  if (*nth <= 0) return 1;
+  const double headroom = clipped == 0 ? 0.92 : 1.0;  // the lattice may have missed the brightest pixel
+  return headroom / static_cast<double>(*nth);
+}
+
+RenderedImages render_images(const ShadingContext& context, const Camera& camera,
+                             const std::vector<LampSet>& sets, double exposure, const RowProgress& progress) {
+  const ImageSensor sensor(context.options, exposure);
+  RenderedImages out;
+  for (std::size_t k = 0; k < sets.size(); ++k) out.colors.push_back(sensor.blank(camera.size()));
+  out.albedo = cv::Mat3f(camera.size(), cv::Vec3f(kNaN, kNaN, kNaN));
+  constexpr int kRowsBetweenReports = 16;
+  for (int first = 0; first < camera.height; first += kRowsBetweenReports) {
+    const int last = std::min(first + kRowsBetweenReports, camera.height);
+    cv::parallel_for_({first, last}, [&](const cv::Range& rows) {
+      for (int v = rows.start; v < rows.end; ++v) render_row(context, camera, sets, sensor, v, out);
+    });
+    progress(static_cast<double>(last) / camera.height);
+  }
+  return out;
+}
+
+SurfaceMaps render_surface(const RayTracer& tracer, const Camera& camera) {
+  SurfaceMaps maps{cv::Mat1f(camera.size(), kNaN), cv::Mat3f(camera.size(), cv::Vec3f(kNaN, kNaN, kNaN))};
+  cv::parallel_for_({0, camera.height}, [&](const cv::Range& rows) {
+    for (int v = rows.start; v < rows.end; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        const auto hit = tracer.trace(Eigen::Vector3f::Zero(), pixel_ray(camera, u, v));
+        if (!hit) continue;
+        maps.depth(v, u) = hit->position.z();
+        maps.normals(v, u) = {hit->normal.x(), hit->normal.y(), hit->normal.z()};
+      }
+    }
+  });
+  return maps;
+}
+
+}  // namespace rakelight

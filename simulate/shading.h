@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Reflected light of a surface point: Lambert, Blinn-Phong, shadows.
+#pragma once
+
+#include <vector>
+
+#include "simulate/lamps.h"
+#include "simulate/ray_tracer.h"
+
+namespace rakelight {
+
+/// A point that is seen, with its paint.
+struct SurfaceSample {
+  SurfaceHit hit;
+  Eigen::Vector3f albedo;  ///< linear RGB
+  Eigen::Vector3f to_eye;  ///< unit
+};
+
+/// What all points of a scan share.
+struct ShadingContext {
+  const SimulateOptions& options;
+  const RayTracer& tracer;
+  Eigen::Vector3f object_center;
+};
+
+/// Linear radiance towards the eye under the lamps and the room's ambient light; 1 = a facing white surface under a lamp
+/// of strength 1.
+Eigen::Vector3f radiance(const ShadingContext& context, const SurfaceSample& sample,
+                         const std::vector<LampTruth>& lamps);
+
+}  // namespace rakelight
