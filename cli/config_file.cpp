@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <type_traits>
 
 #include "refine/option_fields.h"
 #include "stack/checked_file.h"
@@ -77,18 +78,11 @@ class Config {
     }
     field = *value;
   }
-  void set(const std::string& name, const toml::node& node, Method& field) const {
-    set_named(name, node, kMethods, field);
-  }
-  void set(const std::string& name, const toml::node& node, Preset& field) const {
-    set_named(name, node, kPresets, field);
-  }
-
-  template <class Values, class T>
-  void set_named(const std::string& name, const toml::node& node, const Values& values, T& field) const {
+  template <class Enum, class = std::enable_if_t<std::is_enum_v<Enum>>>
+  void set(const std::string& name, const toml::node& node, Enum& field) const {
     const auto text = node.value_exact<std::string>();
     std::string names;
-    for (const T value : values) {
+    for (const Enum value : kValuesOf<Enum>) {
       if (text && *text == to_string(value)) {
         field = value;
         return;

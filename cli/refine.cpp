@@ -41,25 +41,24 @@ constexpr const char* kFooter = R"(Examples:
   rakelight refine my-scan -o out --json | jq .quality    the summary for scripts)";
 
 /// The value whose name is `text`; the command line has already refused what is none.
-template <class Values>
-auto value_named(const Values& values, const std::optional<std::string>& text) {
-  std::optional<typename Values::value_type> found;
-  for (const auto value : values) {
-    if (text && *text == to_string(value)) found = value;
+template <class Enum>
+std::optional<Enum> value_named(const std::optional<std::string>& text) {
+  for (const Enum value : kValuesOf<Enum>) {
+    if (text && *text == to_string(value)) return value;
   }
-  return found;
+  return std::nullopt;
 }
 
-template <class Values>
-std::vector<std::string> names_of(const Values& values) {
+template <class Enum>
+std::vector<std::string> names_of() {
   std::vector<std::string> names;
-  for (const auto value : values) names.push_back(to_string(value));
+  for (const Enum value : kValuesOf<Enum>) names.push_back(to_string(value));
   return names;
 }
 
 RefineOptions options_of(const Arguments& arguments) {
   RefineOptions options = read_options(
-      arguments.config, {value_named(kPresets, arguments.preset), value_named(kMethods, arguments.method)});
+      arguments.config, {value_named<Preset>(arguments.preset), value_named<Method>(arguments.method)});
   options.scale = arguments.scale.value_or(options.scale);
   options.max_iterations = arguments.iterations.value_or(options.max_iterations);
   options.threads = arguments.threads.value_or(options.threads);
@@ -122,11 +121,11 @@ void add_refine_command(CLI::App& program, int& exit_code) {
       ->required()
       ->type_name("OUT");
   command->add_option("--method", arguments->method, "How to refine")
-      ->check(CLI::IsMember(names_of(kMethods)));
+      ->check(CLI::IsMember(names_of<Method>()));
   command
       ->add_option("--preset", arguments->preset,
                    "robust (default): for real data; paper: the paper to the letter")
-      ->check(CLI::IsMember(names_of(kPresets)));
+      ->check(CLI::IsMember(names_of<Preset>()));
   command
       ->add_option("--scale", arguments->scale,
                    "Refined grid / depth grid, 1 to 4; default: as fine as the colour images")

@@ -11,12 +11,16 @@
 
 namespace rakelight {
 
-/// Every value of an enumeration that is an option, for reading it from text by to_string.
-inline constexpr std::array kMethods{Method::multi_light};
-inline constexpr std::array kPresets{Preset::paper, Preset::robust};
+/// Every value of an enumeration that is an option: their names are those of to_string.
+template <class Enum>
+inline constexpr std::array<Enum, 0> kValuesOf{};
+template <>
+inline constexpr std::array kValuesOf<Method>{Method::multi_light};
+template <>
+inline constexpr std::array kValuesOf<Preset>{Preset::paper, Preset::robust};
 
 /// Calls visit(name, field) for every parameter; a dot in a name separates a group from its member.
-/// Fields are bool, int, double, Method or Preset. @param options RefineOptions, const or not
+/// Fields are bool, int, double or an enumeration of kValuesOf. @param options RefineOptions, const or not
 template <class Options, class Visitor>
 void for_each_option(Options& options, Visitor&& visit) {
   visit("method", options.method);

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <set>
 
+#include "stack/camera_json.h"
 #include "stack/color_response.h"
 #include "stack/errors.h"
 #include "stack/manifest.h"
-#include "stack/png_header.h"
 #include "stack/strict_json.h"
 
 namespace rakelight {
@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMaxEntries = 4096;  // lights, frames
-constexpr double kMaxPixels = 1e6;         // focal lengths, principal points
+constexpr double kMaxBalance = 1e6;        // factors of white balance
 constexpr double kMaxMetres = 1e4;         // positions, translations
 constexpr std::int64_t kMaxMicroseconds = INT64_MAX;
 
@@ -26,25 +26,6 @@ constexpr std::int64_t kMaxMicroseconds = INT64_MAX;
 void keep_unknown(json& unknown, const std::string& key, const ObjectReader& reader) {
   json rest = reader.unknown();
   if (!rest.empty()) unknown[key] = std::move(rest);
-}
-
-Camera read_camera(ObjectReader& camera) {
-  Camera result;
-  result.width = static_cast<int>(camera.integer("width", 1, kMaxImageSide));
-  result.height = static_cast<int>(camera.integer("height", 1, kMaxImageSide));
-  if (std::uint64_t(result.width) * std::uint64_t(result.height) > kMaxImagePixels) {
-    camera.refuse("width x height", "is too large", "use images of at most 64 megapixels");
-  }
-  result.fx = camera.number("fx", 1e-3, kMaxPixels);
-  result.fy = camera.number("fy", 1e-3, kMaxPixels);
-  result.cx = camera.number("cx", -kMaxPixels, kMaxPixels);
-  result.cy = camera.number("cy", -kMaxPixels, kMaxPixels);
-  result.distortion = camera.maybe_numbers("distortion").value_or(std::vector<double>{});
-  const std::size_t count = result.distortion.size();
-  if (count != 0 && count != 4 && count != 5 && count != 8) {
-    camera.refuse("distortion", "does not have 0, 4, 5 or 8 coefficients", "write k1 k2 p1 p2 k3 k4 k5 k6");
-  }
-  return result;
 }
 
 Camera read_camera(ObjectReader& manifest, const std::string& key, json& unknown) {
@@ -125,9 +106,9 @@ std::optional<WhiteBalance> read_white_balance(ObjectReader& manifest, json& unk
   auto reader = manifest.maybe_object("white_balance");
   if (!reader) return {};
   WhiteBalance balance;
-  balance.red = reader->number("red", 0, kMaxPixels);
-  balance.green = reader->number("green", 0, kMaxPixels);
-  balance.blue = reader->number("blue", 0, kMaxPixels);
+  balance.red = reader->number("red", 0, kMaxBalance);
+  balance.green = reader->number("green", 0, kMaxBalance);
+  balance.blue = reader->number("blue", 0, kMaxBalance);
   keep_unknown(unknown, "white_balance", *reader);
   return balance;
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "stack/camera_json.h"
 #include "stack/errors.h"
 #include "stack/manifest.h"
 #include "stack/strict_json.h"
@@ -14,16 +15,6 @@ json list_of(const Numbers& numbers) {
   json list = json::array();
   for (const double number : numbers) list.push_back(number);
   return list;
-}
-
-json to_json(const Camera& camera) {
-  return {{"width", camera.width},
-          {"height", camera.height},
-          {"fx", camera.fx},
-          {"fy", camera.fy},
-          {"cx", camera.cx},
-          {"cy", camera.cy},
-          {"distortion", list_of(camera.distortion)}};
 }
 
 template <typename Matrix>
@@ -129,8 +120,8 @@ json to_json(const LightStack& stack, const std::vector<FrameFiles>& files) {
                         {"uri", sensor.uri},
                         {"serial", sensor.serial},
                         {"driver", sensor.driver}};
-  manifest["color_camera"] = to_json(stack.color_camera);
-  manifest["depth_camera"] = to_json(stack.depth_camera);
+  manifest["color_camera"] = camera_json(stack.color_camera);
+  manifest["depth_camera"] = camera_json(stack.depth_camera);
   manifest["T_color_depth"] = rows_of(stack.T_color_depth);
   manifest["depth_unit_m"] = stack.depth_unit_m;
   manifest["color_response"] = to_json(stack.color_response);

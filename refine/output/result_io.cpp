@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/output/result_io.h"
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "refine/output/images.h"
@@ -11,11 +10,11 @@
 #include "refine/output/ply.h"
 #include "refine/output/result_json.h"
 #include "stack/atomic_folder.h"
+#include "stack/camera_json.h"
 #include "stack/checked_file.h"
-#include "stack/errors.h"
 #include "stack/float_tiff.h"
 #include "stack/image_file.h"
-#include "stack/png_header.h"
+#include "stack/strict_json.h"
 
 namespace rakelight {
 namespace fs = std::filesystem;
@@ -32,44 +31,19 @@ const FolderKind& result_kind() {
   return kind;
 }
 
-[[noreturn]] void refuse_manifest(const fs::path& file, const std::string& fault) {
-  throw InputError(file.string(), fault, "refine the stack again");
-}
-
-nlohmann::json read_manifest(const fs::path& file) {
+Camera read_camera_of(const fs::path& file) {
   const Bytes bytes = read_file(file, kMaxManifestBytes);
-  const auto json = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) refuse_manifest(file, "is no JSON object");
-  if (json.value("format", "") != kResultFormat) refuse_manifest(file, "is not of a result");
-  if (json.value("version", 0) != kResultVersion) {
-    throw InputError(file.string(), "has a format version this program does not read",
-                     "use a newer rakelight");
+  const auto json = parse_strict_json({bytes.begin(), bytes.end()}, file.string());
+  ObjectReader manifest(json, file.string());
+  if (manifest.text("format") != kResultFormat) {
+    manifest.refuse("format", "is not " + std::string(kResultFormat), "name a folder that refine wrote");
   }
-  return json;
-}
-
-Camera camera_of(const nlohmann::json& json) {
-  Camera camera;
-  json.at("width").get_to(camera.width);
-  json.at("height").get_to(camera.height);
-  json.at("fx").get_to(camera.fx);
-  json.at("fy").get_to(camera.fy);
-  json.at("cx").get_to(camera.cx);
-  json.at("cy").get_to(camera.cy);
-  json.at("distortion").get_to(camera.distortion);
-  return camera;
-}
-
-Camera read_camera(const fs::path& file) {
-  try {
-    const Camera camera = camera_of(read_manifest(file).at("camera"));
-    const int side = static_cast<int>(kMaxImageSide);
-    const bool sized = camera.width > 0 && camera.height > 0 && camera.width <= side && camera.height <= side;
-    if (!sized || !(camera.fx > 0) || !(camera.fy > 0)) refuse_manifest(file, "describes no possible camera");
-    return camera;
-  } catch (const nlohmann::json::exception&) {
-    refuse_manifest(file, "lacks the camera, or parts of the file have another type");
+  if (manifest.integer("version", 1, 1'000'000) != kResultVersion) {
+    manifest.refuse("version", "is one this program does not read", "use a newer rakelight");
   }
+  manifest.get("camera");
+  ObjectReader camera = *manifest.maybe_object("camera");
+  return read_camera(camera);
 }
 
 }  // namespace
@@ -95,7 +69,7 @@ void check_result_folder(const fs::path& folder) {
 
 StoredResult read_result(const fs::path& folder) {
   StoredResult result;
-  result.camera = read_camera(folder / kManifest);
+  result.camera = read_camera_of(folder / kManifest);
   result.depth = read_float_tiff(folder / "depth.tiff", result.camera.size());
   result.initial_depth = read_float_tiff(folder / "initial_depth.tiff", result.camera.size());
   result.normals = read_float3_tiff(folder / "normals.tiff", result.camera.size());

@@ -9,6 +9,7 @@
 
 #include "refine/option_fields.h"
 #include "refine/output/images.h"
+#include "stack/camera_json.h"
 
 namespace rakelight {
 namespace {
@@ -33,16 +34,6 @@ Json json_of(const RefineOptions& options) {
     json[Json::json_pointer(pointer)] = json_value(value);
   });
   return json;
-}
-
-Json json_of(const Camera& camera) {
-  return {{"width", camera.width},
-          {"height", camera.height},
-          {"fx", camera.fx},
-          {"fy", camera.fy},
-          {"cx", camera.cx},
-          {"cy", camera.cy},
-          {"distortion", camera.distortion}};
 }
 
 Json json_of(const LightEstimate& light) {
@@ -98,7 +89,7 @@ std::string result_json(const RefineResult& result) {
                      {"termination", to_string(result.termination)},
                      {"message", result.message},
                      {"warnings", result.warnings},
-                     {"camera", json_of(result.camera)},
+                     {"camera", camera_json(result.camera)},
                      {"scale", result.scale},
                      {"depth_png_unit_m", depth_unit(result.depth)},
                      {"albedo_png_white", albedo_white(result.albedo)},
