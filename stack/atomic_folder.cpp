@@ -159,4 +159,10 @@ void AtomicFolder::commit() {
   fs::remove_all(old_, ignored);
 }
 
+FolderIdentity folder_identity(const fs::path& folder) {
+  struct stat status {};
+  if (::stat(folder.c_str(), &status) != 0) return {};
+  return {status.st_dev, status.st_ino, status.st_ctim.tv_sec, status.st_ctim.tv_nsec};
+}
+
 }  // namespace rakelight

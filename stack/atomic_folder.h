@@ -8,6 +8,7 @@
 //     out.commit();
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -50,5 +51,19 @@ class AtomicFolder {
   std::filesystem::path target_, temporary_, old_, lock_file_;
   int lock_fd_ = -1;
 };
+
+/// What tells a folder from the one that replaced it: a reader of several files compares it before and after.
+struct FolderIdentity {
+  std::uint64_t device = 0, inode = 0;
+  std::int64_t changed_s = 0, changed_ns = 0;  ///< an inode's number may be given again, but later
+
+  bool operator==(const FolderIdentity& other) const {
+    return device == other.device && inode == other.inode && changed_s == other.changed_s &&
+           changed_ns == other.changed_ns;
+  }
+};
+
+/// All zero if there is no such folder.
+FolderIdentity folder_identity(const std::filesystem::path& folder);
 
 }  // namespace rakelight

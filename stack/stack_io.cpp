@@ -19,6 +19,7 @@ namespace {
 
 constexpr const char* kManifest = "stack.json";
 constexpr const char* kMask = "mask.png";
+constexpr int kMaxAttempts = 100;
 constexpr std::uint64_t kMaxManifestBytes = 16 << 20;
 /// All pixels of a stack together, colour and depth counted apart: 6 GB of 16-bit colour.
 constexpr std::uint64_t kMaxStackPixels = std::uint64_t{1} << 30;
@@ -45,7 +46,7 @@ void check_memory(const Manifest& manifest, const fs::path& file) {
   }
 }
 
-LightStack read_stack_folder(const fs::path& folder) {
+LightStack read_files(const fs::path& folder) {
   const fs::path file = path_inside(folder, kManifest);
   const Bytes bytes = read_file(file, kMaxManifestBytes);
   Manifest manifest = parse_manifest(std::string(bytes.begin(), bytes.end()), file.string());
@@ -63,6 +64,20 @@ LightStack read_stack_folder(const fs::path& folder) {
         read_mask_png(path_inside(folder, kMask), {stack.color_camera.size(), stack.depth_camera.size()});
   }
   return std::move(stack);
+}
+
+/// All files of one stack, even if a writer replaces the folder meanwhile.
+LightStack read_stack_folder(const fs::path& folder) {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+    const FolderIdentity before = folder_identity(folder);
+    try {
+      LightStack stack = read_files(folder);
+      if (folder_identity(folder) == before) return stack;
+    } catch (const InputError&) {
+      if (folder_identity(folder) == before) throw;
+    }
+  }
+  throw BusyError(folder.string() + ": another program keeps replacing it; read it when that is done");
 }
 
 /// Refuses pixels the format has no place for, before anything is written.

@@ -15,7 +15,7 @@
 #include "tests/support/file_edits.h"
 #include "tests/support/message_of.h"
 #include "tests/support/small_stack.h"
-#include "tests/support/temp_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace rakelight {
 namespace {
@@ -41,7 +41,7 @@ class StackIo : public testing::Test {
     replace_in_manifest("\"width\": 24,\n    \"height\": 16", "\"width\": 16384,\n    \"height\": 4096");
   }
 
-  test::TempFolder folder;
+  test::TemporaryFolder folder;
   fs::path stack = folder / "stack";
 };
 
