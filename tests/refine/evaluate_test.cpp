@@ -13,6 +13,7 @@
 #include "refine/depth_normals.h"
 #include "stack/errors.h"
 #include "stack/float_tiff.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temporary_folder.h"
 
 namespace rakelight {
@@ -108,13 +109,7 @@ TEST(Evaluate, RefusesAResultThatSharesNoPixelWithTheTruth) {
 }
 
 /// The independent judge beside the shared data, where there is one.
-std::filesystem::path judge() {
-  const char* data = std::getenv("RAKELIGHT_SHARED_DATA");
-  const std::filesystem::path shared = data != nullptr
-                                           ? std::filesystem::path(data).parent_path()
-                                           : std::filesystem::path(RAKELIGHT_SOURCE_DIR) / "../shared";
-  return shared / "tools/judge.py";
-}
+std::filesystem::path judge() { return test::shared_data() / "../tools/judge.py"; }
 
 nlohmann::json judged(const std::filesystem::path& result, const std::filesystem::path& stack) {
   const std::string command =

@@ -15,6 +15,8 @@
 #include "stack/errors.h"
 #include "stack/float_tiff.h"
 #include "stack/image_file.h"
+#include "tests/support/file_edits.h"
+#include "tests/support/message_of.h"
 #include "tests/support/sample_result.h"
 #include "tests/support/tiny_disk.h"
 
@@ -22,6 +24,9 @@ namespace rakelight {
 namespace {
 
 namespace fs = std::filesystem;
+using test::message_of;
+using test::set_text;
+using test::text_of;
 using testing::HasSubstr;
 
 std::set<std::string> names_in(const fs::path& folder) {
@@ -31,13 +36,8 @@ std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 nlohmann::json manifest(const fs::path& folder) {
-  return nlohmann::json::parse(contents(folder / "result.json"));
+  return nlohmann::json::parse(text_of(folder / "result.json"));
 }
 
 /// Same bits, NaN included.
@@ -137,10 +137,10 @@ TEST(ResultIo, ReplacesAnEarlierResult) {
 TEST(ResultIo, RefusesAFolderThatIsNoResultAndLeavesItAlone) {
   const test::TemporaryFolder folder;
   fs::create_directories(folder / "photos");
-  std::ofstream(folder / "photos/holiday.jpg") << "beach";
+  set_text(folder / "photos/holiday.jpg", "beach");
   EXPECT_THROW(check_result_folder(folder / "photos"), InputError);
   EXPECT_THROW(write_result(test::sample_result(), folder / "photos"), InputError);
-  EXPECT_EQ(contents(folder / "photos/holiday.jpg"), "beach");
+  EXPECT_EQ(text_of(folder / "photos/holiday.jpg"), "beach");
   EXPECT_EQ(names_in(folder / "photos"), std::set<std::string>{"holiday.jpg"});
 }
 
@@ -149,9 +149,9 @@ TEST(ResultIo, CheckingAFolderChangesNothing) {
   check_result_folder(folder / "new");
   EXPECT_TRUE(names_in(folder.path()).empty());
   write_result(test::sample_result(), folder / "old");
-  const std::string before = contents(folder / "old/result.json");
+  const std::string before = text_of(folder / "old/result.json");
   check_result_folder(folder / "old");
-  EXPECT_EQ(contents(folder / "old/result.json"), before);
+  EXPECT_EQ(text_of(folder / "old/result.json"), before);
 }
 
 TEST(ResultIo, RefusesASecondWriterAtTheSameTime) {
@@ -164,25 +164,22 @@ TEST(ResultIo, KeepsTheEarlierResultWhenTheDiskIsFull) {
   const test::TinyDisk disk(96);
   if (!disk.mounted()) GTEST_SKIP() << "needs root to mount a small tmpfs";
   write_result(test::sample_result(), disk.path() / "out");
-  const std::string before = contents(disk.path() / "out/result.json");
+  const std::string before = text_of(disk.path() / "out/result.json");
 
   // Fill what is left, so that the second result does not fit beside the first.
   std::ofstream filler(disk.path() / "filler", std::ios::binary);
   while (filler.put('x').flush()) {}
   EXPECT_THROW(write_result(test::sample_result(), disk.path() / "out"), IoError);
-  EXPECT_EQ(contents(disk.path() / "out/result.json"), before);
+  EXPECT_EQ(text_of(disk.path() / "out/result.json"), before);
   EXPECT_EQ(names_in(disk.path()), (std::set<std::string>{"out", "filler"}));
 }
 
 TEST(ResultIo, NamesTheFileWhenAResultIsDamaged) {
   const test::TemporaryFolder folder;
   write_result(test::sample_result(), folder / "out");
-  const std::string whole = contents(folder / "out/depth.tiff");
-  std::ofstream(folder / "out/depth.tiff", std::ios::binary) << whole.substr(0, whole.size() / 2);
-  try {
-    read_result(folder / "out");
-    FAIL() << "half a depth map was read";
-  } catch (const InputError& error) { EXPECT_THAT(error.what(), HasSubstr("depth.tiff")); }
+  const std::string whole = text_of(folder / "out/depth.tiff");
+  set_text(folder / "out/depth.tiff", whole.substr(0, whole.size() / 2));
+  EXPECT_THAT(message_of<InputError>([&] { read_result(folder / "out"); }), HasSubstr("depth.tiff"));
 }
 
 TEST(ResultIo, RefusesManifestsThatAreNoResultsOrDescribeNoCamera) {
@@ -190,7 +187,7 @@ TEST(ResultIo, RefusesManifestsThatAreNoResultsOrDescribeNoCamera) {
   write_result(test::sample_result(), folder / "out");
   const nlohmann::json good = manifest(folder / "out");
   const auto refuses = [&](const std::string& text) {
-    std::ofstream(folder / "out/result.json", std::ios::binary) << text;
+    set_text(folder / "out/result.json", text);
     EXPECT_THROW(read_result(folder / "out"), InputError) << text.substr(0, 80);
   };
   refuses("");
