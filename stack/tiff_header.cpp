@@ -107,6 +107,7 @@ TiffHeader parse_tiff_header(const unsigned char* data, std::size_t size, const 
         break;
     }
   }
+  bytes.number(directory + 2 + 12 * std::size_t{entries}, 4);  // the next directory's place ends this one
   header.is_float32 = all_are(bits, 32) && all_are(format, 3);
   if (header.width == 0 || header.height == 0 || offsets.empty() || offsets.size() != lengths.size()) {
     bytes.throw_cut();

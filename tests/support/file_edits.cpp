@@ -38,6 +38,7 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 void set_text(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::remove(file);  // ext4 flushes a file that is emptied and filled again: slow in a loop
   std::ofstream(file, std::ios::binary) << text;
 }
 
