@@ -32,7 +32,9 @@ bool reads(const DepthSensorOptions& sensor, const RayTracer& tracer, const Surf
   const Eigen::Vector3f to_projector =
       Eigen::Vector3f(static_cast<float>(sensor.baseline_m), 0, 0) - hit.position;
   const float distance = to_projector.norm();
-  return !tracer.occluded(hit, to_projector / distance, distance);
+  std::vector<bool> occluded;
+  tracer.find_occluded({{&hit, to_projector / distance, distance}}, occluded);
+  return !occluded.front();
 }
 
 /// Readings fail beside depth jumps, raggedly.

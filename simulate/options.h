@@ -12,13 +12,14 @@
 
 namespace rakelight {
 
-enum class SceneKind { vase, sphere, plane };
+enum class SceneKind { vase, coin, drape, sphere, plane, mesh };
 enum class AlbedoKind { simple, pattern, complicated };
 enum class LampLayout { ring, swayed };
 
 /// What stands before the camera. It is centred on the optical axis and scaled to fit the view.
 struct SceneOptions {
   SceneKind kind = SceneKind::vase;
+  std::filesystem::path mesh;  ///< PLY or OBJ (y up, z to the viewer), for SceneKind::mesh
   AlbedoKind albedo = AlbedoKind::pattern;
   double distance_m = 1.0;  ///< of the object's centre
   double fill = 0.92;       ///< share of the view's width or height that the object takes

@@ -44,7 +44,7 @@ struct RayTracer::Scene {
 RayTracer::RayTracer(Mesh mesh) : scene_(std::make_unique<Scene>()) {
   scene_->mesh = std::move(mesh);
   // One build thread: the tree, and with it every tie between facets, is the same on any machine.
-  scene_->device.reset(rtcNewDevice("threads=1"));
+  scene_->device.reset(rtcNewDevice(nullptr));
   if (!scene_->device) throw std::runtime_error("ray casting: Embree did not start");
   scene_->scene.reset(rtcNewScene(scene_->device.get()));
   rtcSetSceneFlags(scene_->scene.get(), RTC_SCENE_FLAG_ROBUST);
@@ -95,12 +95,21 @@ std::optional<SurfaceHit> RayTracer::trace(const Eigen::Vector3f& origin,
   return hit;
 }
 
-bool RayTracer::occluded(const SurfaceHit& from, const Eigen::Vector3f& direction, float distance) const {
-  RTCRay ray = make_ray(from.position + scene_->lift * from.facet, direction, distance);
+void RayTracer::find_occluded(const std::vector<ShadowRay>& rays, std::vector<bool>& occluded) const {
+  thread_local std::vector<RTCRay> queries;
+  queries.clear();
+  for (const ShadowRay& ray : rays) {
+    queries.push_back(
+        make_ray(ray.from->position + scene_->lift * ray.from->facet, ray.direction, ray.distance));
+  }
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcOccluded1(scene_->scene.get(), &context, &ray);
-  return ray.tfar < 0;  // Embree marks a blocked ray by minus infinity
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded1M(scene_->scene.get(), &context, queries.data(), static_cast<unsigned>(queries.size()),
+                sizeof(RTCRay));
+  occluded.clear();
+  for (const RTCRay& query : queries)
+    occluded.push_back(query.tfar < 0);  // Embree marks a blocked ray by -inf
 }
 
 }  // namespace rakelight

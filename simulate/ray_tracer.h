@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "simulate/mesh.h"
 
@@ -19,6 +20,13 @@ struct SurfaceHit {
   Eigen::Vector2f texture;
 };
 
+/// From a hit to a point `distance` metres along a unit direction.
+struct ShadowRay {
+  const SurfaceHit* from;
+  Eigen::Vector3f direction;
+  float distance;
+};
+
 class RayTracer {
  public:
   /// @throws std::runtime_error when Embree cannot build the scene.
@@ -30,8 +38,8 @@ class RayTracer {
   /// First surface along a ray (direction need not be of unit length). Thread-safe.
   std::optional<SurfaceHit> trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
 
-  /// Does the scene block the way from a hit to a point `distance` metres along a unit direction? Thread-safe.
-  bool occluded(const SurfaceHit& from, const Eigen::Vector3f& direction, float distance) const;
+  /// Which of the ways from hits to lamps the scene blocks. Rays of neighbouring hits are fastest. Thread-safe.
+  void find_occluded(const std::vector<ShadowRay>& rays, std::vector<bool>& occluded) const;
 
  private:
   struct Scene;

@@ -34,10 +34,8 @@ void sample_pixel(const ShadingContext& context, const Camera& camera, int u, in
 /// Mean radiance of a pixel; rays that miss the object see black.
 Eigen::Vector3f pixel_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
                                const std::vector<LampTruth>& lamps) {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const auto& sample : samples) sum += radiance(context, sample, lamps);
   const int n = context.options.image.samples;
-  return sum / static_cast<float>(n * n);
+  return total_radiance(context, samples, lamps) / static_cast<float>(n * n);
 }
 
 void render_row(const ShadingContext& context, const Camera& camera, const std::vector<LampSet>& sets,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "simulate/mesh_io.h"
 #include "simulate/objects/objects.h"
 
 namespace rakelight {
@@ -52,6 +53,8 @@ Eigen::Vector3d own_rotation_deg(SceneKind kind) {
   switch (kind) {
     case SceneKind::vase:
       return {0, -8, 0};
+    case SceneKind::coin:
+      return {14, 10, 0};
     case SceneKind::plane:
       return {25, 15, 0};
     default:
@@ -61,14 +64,20 @@ Eigen::Vector3d own_rotation_deg(SceneKind kind) {
 
 Mesh object_mesh(const SceneOptions& options, int detail) {
   switch (options.kind) {
+    case SceneKind::vase:
+      return make_vase(detail);
+    case SceneKind::coin:
+      return make_coin(detail);
+    case SceneKind::drape:
+      return make_drape(detail);
     case SceneKind::sphere:
       return make_sphere(detail);
     case SceneKind::plane:
       return make_plane();
-    case SceneKind::vase:
+    case SceneKind::mesh:
       break;
   }
-  return make_vase(detail);
+  return read_mesh(options.mesh);
 }
 
 }  // namespace

@@ -20,14 +20,9 @@ float lobe(const SurfaceSample& sample, const Eigen::Vector3f& to_lamp, double s
   return std::pow(std::max(0.0f, sample.hit.normal.dot(half)), static_cast<float>(shininess));
 }
 
-Eigen::Vector3f from_lamp(const ShadingContext& context, const SurfaceSample& sample, const LampTruth& lamp) {
-  const ImageOptions& image = context.options.image;
-  const Incident light = incident_light(lamp, context.object_center, sample.hit.position);
+/// Light reflected by a point that the lamp reaches unhindered.
+Eigen::Vector3f reflected(const ImageOptions& image, const SurfaceSample& sample, const Incident& light) {
   const float cosine = sample.hit.normal.dot(light.direction);
-  if (image.cast_shadows && cosine > 0 &&
-      context.tracer.occluded(sample.hit, light.direction, light.distance)) {
-    return Eigen::Vector3f::Zero();
-  }
   // The harmonic approximation reaches past the terminator.
   const float shading = image.attached_shadows ? std::max(0.0f, cosine) : 0.75f * cosine + 0.25f;
   Eigen::Vector3f result = sample.albedo.cwiseProduct(light.irradiance) * shading;
@@ -38,12 +33,42 @@ Eigen::Vector3f from_lamp(const ShadingContext& context, const SurfaceSample& sa
   return result;
 }
 
+/// Sum of one lamp's reflected light over the samples, without those in its cast shadow.
+Eigen::Vector3f from_lamp(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
+                          const LampTruth& lamp) {
+  thread_local std::vector<ShadowRay> rays;
+  thread_local std::vector<Eigen::Vector3f> lit;  // runs parallel to `rays`
+  thread_local std::vector<bool> occluded;
+  rays.clear();
+  lit.clear();
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const SurfaceSample& sample : samples) {
+    const Incident light = incident_light(lamp, context.object_center, sample.hit.position);
+    const Eigen::Vector3f value = reflected(context.options.image, sample, light);
+    if (context.options.image.cast_shadows && sample.hit.normal.dot(light.direction) > 0) {
+      rays.push_back({&sample.hit, light.direction, light.distance});
+      lit.push_back(value);
+    } else {
+      sum += value;
+    }
+  }
+  if (rays.empty()) return sum;
+  context.tracer.find_occluded(rays, occluded);
+  for (std::size_t k = 0; k < lit.size(); ++k) {
+    if (!occluded[k]) sum += lit[k];
+  }
+  return sum;
+}
+
 }  // namespace
 
-Eigen::Vector3f radiance(const ShadingContext& context, const SurfaceSample& sample,
-                         const std::vector<LampTruth>& lamps) {
-  Eigen::Vector3f sum = sample.albedo.cwiseProduct(ambient(context.options, sample.hit.normal));
-  for (const LampTruth& lamp : lamps) sum += from_lamp(context, sample, lamp);
+Eigen::Vector3f total_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
+                               const std::vector<LampTruth>& lamps) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const SurfaceSample& sample : samples) {
+    sum += sample.albedo.cwiseProduct(ambient(context.options, sample.hit.normal));
+  }
+  for (const LampTruth& lamp : lamps) sum += from_lamp(context, samples, lamp);
   return sum;
 }
 

@@ -25,9 +25,9 @@ struct ShadingContext {
   Eigen::Vector3f object_center;
 };
 
-/// Linear radiance towards the eye under the lamps and the room's ambient light; 1 = a facing white surface under a lamp
-/// of strength 1.
-Eigen::Vector3f radiance(const ShadingContext& context, const SurfaceSample& sample,
-                         const std::vector<LampTruth>& lamps);
+/// Sum over the samples of the linear radiance towards the eye under the lamps and the room's ambient light;
+/// 1 = a facing white surface under a lamp of strength 1.
+Eigen::Vector3f total_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
+                               const std::vector<LampTruth>& lamps);
 
 }  // namespace rakelight
