@@ -24,6 +24,9 @@ cv::Mat1b read_mask(const std::filesystem::path& file);
 void write_stack(const LightStack& stack, const std::filesystem::path& folder,
                  const std::optional<GroundTruth>& truth = std::nullopt);
 
+/// Refuses early what write_stack would refuse, so that a long run does not end in vain. @throws as write_stack.
+void check_stack_folder(const std::filesystem::path& folder);
+
 /// Reads truth/ beside a stack (or a folder that holds depth.tiff and normals.tiff itself).
 /// @throws InputError if it is missing or malformed.
 GroundTruth read_truth(const std::filesystem::path& folder);

@@ -10,8 +10,8 @@
 namespace rakelight {
 
 struct ClothOptions {
-  int nodes = 80;     ///< a side
-  double side = 2.45; ///< of the cloth; the ball's radius is 0.62, its centre the origin
+  int nodes = 80;      ///< a side
+  double side = 2.45;  ///< of the cloth; the ball's radius is 0.62, its centre the origin
   int steps = 340;
   int sweeps = 11;               ///< over all constraints, a step
   double bend_stiffness = 0.05;  ///< share of a bending error undone a sweep

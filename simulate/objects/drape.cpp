@@ -34,14 +34,14 @@ Eigen::Vector3d spline_point(const std::vector<Eigen::Vector3f>& nodes, int side
   return point;
 }
 
-/// Creases: ridged waves with wandering phase, finer than the cloth's nodes can carry. Height in object units.
+/// Creases: rounded ridges with wandering phase, finer than the cloth's nodes can carry. Height in object units.
 double crease(double s, double t) {
+  const auto ridge = [](double phase) { return std::exp(-std::pow(std::sin(phase) / 0.3, 2)); };
   const double wander =
       std::sin(9 * s + 4 * t) + 0.7 * std::sin(17 * t - 6 * s + 1.3) + 0.5 * std::sin(23 * s + 19 * t);
-  const double ridge = std::abs(std::sin(13 * s - 21 * t + 1.7 * wander));
-  const double other = std::abs(std::sin(24 * s + 15 * t - 1.4 * wander + 0.8));
   const double strength = 0.5 + 0.5 * std::sin(7 * s + 5 * t + wander);  // creased here, smooth there
-  return strength * (0.007 * std::exp(-5 * ridge) + 0.005 * std::exp(-5 * other));
+  return strength * (0.007 * ridge(13 * s - 21 * t + 1.7 * wander) +
+                     0.005 * ridge(24 * s + 15 * t - 1.4 * wander + 0.8));
 }
 
 }  // namespace
