@@ -7,7 +7,7 @@
 add_library(rakelight_warnings INTERFACE)
 target_compile_options(rakelight_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
-  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
+  -Wnon-virtual-dtor -Woverloaded-virtual $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>
   $<$<BOOL:${RAKELIGHT_STRICT}>:-Werror>)
 if(RAKELIGHT_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

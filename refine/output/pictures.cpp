@@ -3,6 +3,7 @@
 #include "refine/output/pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -53,10 +54,13 @@ cv::Mat3b panel(const cv::Mat3b& picture, const cv::Rect& box, const std::string
   return result;
 }
 
-cv::Mat3b side_by_side(const cv::Mat3b& left, const cv::Mat3b& right) {
-  cv::Mat3b both;
-  cv::hconcat(left, right, both);
-  return both;
+/// Two pairs: beside each other for a tall object, one below the other for a wide one.
+cv::Mat3b arranged(const std::array<cv::Mat3b, 4>& panels, bool tall) {
+  cv::Mat3b first, second, all;
+  cv::hconcat(panels[0], panels[1], first);
+  cv::hconcat(panels[2], panels[3], second);
+  tall ? cv::hconcat(first, second, all) : cv::vconcat(first, second, all);
+  return all;
 }
 
 }  // namespace
@@ -80,13 +84,10 @@ cv::Mat3b before_after_picture(const RefineResult& result) {
   cv::Mat3f before;
   normals_from_depth(result.camera, result.initial_depth).convertTo(before, CV_32F);
   const cv::Mat3f& after = result.normals;
-  const cv::Mat3b top =
-      side_by_side(panel(shaded(before), box, "sensor depth"), panel(shaded(after), box, "refined"));
-  const cv::Mat3b bottom = side_by_side(panel(painted(before), box, "sensor normals"),
-                                        panel(painted(after), box, "refined normals"));
-  cv::Mat3b picture;
-  cv::vconcat(top, bottom, picture);
-  return picture;
+  return arranged(
+      {panel(shaded(before), box, "sensor depth"), panel(shaded(after), box, "refined"),
+       panel(painted(before), box, "sensor normals"), panel(painted(after), box, "refined normals")},
+      box.height > box.width);
 }
 
 }  // namespace rakelight

@@ -14,8 +14,8 @@ namespace rakelight {
 /// @param normals camera frame, unit length, NaN outside
 cv::Mat1b raking_light(const cv::Mat3f& normals);
 
-/// Sensor depth on the left, refined on the right; above in raking light, below as normals. R, G, B; cropped to the
-/// object and at most some 2000 pixels wide.
+/// Sensor depth left of refined depth, in raking light and as normals. R, G, B; cropped to the object, each of the four
+/// pictures at most some 1000 pixels wide and high.
 cv::Mat3b before_after_picture(const RefineResult& result);
 
 }  // namespace rakelight

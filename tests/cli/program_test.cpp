@@ -32,20 +32,21 @@ TEST_P(EveryCommand, RefusesUnknownOptionsInOneLine) {
   EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, EveryCommand,
-                         testing::Values("refine", "evaluate", "import", "info", "verify"
+std::string name_of(const testing::TestParamInfo<const char*>& command) { return command.param; }
+
+INSTANTIATE_TEST_SUITE_P(Of, EveryCommand, testing::Values("refine", "evaluate", "import", "info", "verify"),
+                         name_of);
 #ifdef RAKELIGHT_HAS_SIMULATE
-                                         , "simulate"
+INSTANTIATE_TEST_SUITE_P(OfSimulation, EveryCommand, testing::Values("simulate"), name_of);
 #endif
-                                         ),
-                         [](const auto& info) { return std::string(info.param); });
 
 TEST(Program, ShowsAnOverviewWithExamplesAndExitCodes) {
   const Ran ran = run({"--help"});
   EXPECT_EQ(ran.exit_code, 0);
   EXPECT_THAT(ran.out, HasSubstr("Examples:"));
   EXPECT_THAT(ran.out, HasSubstr("Exit codes:"));
-  for (const char* command : {"refine", "evaluate", "import", "info", "verify"}) EXPECT_THAT(ran.out, HasSubstr(command));
+  for (const char* command : {"refine", "evaluate", "import", "info", "verify"})
+    EXPECT_THAT(ran.out, HasSubstr(command));
 }
 
 TEST(Program, TellsItsVersion) {

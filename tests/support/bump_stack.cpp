@@ -64,9 +64,7 @@ cv::Mat1w sensor_depth(std::mt19937& random) {
   return depth;
 }
 
-cv::Rect object() {
-  return {kBorder, kBorder, kColor.width - 2 * kBorder, kColor.height - 2 * kBorder};
-}
+cv::Rect object() { return {kBorder, kBorder, kColor.width - 2 * kBorder, kColor.height - 2 * kBorder}; }
 
 }  // namespace
 
