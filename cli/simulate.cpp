@@ -92,7 +92,7 @@ void set_size(SimulateOptions& options, const std::string& text) {
   int width = 0, height = 0;
   char times = 0, more = 0;
   if (std::sscanf(text.c_str(), "%5d%c%5d%c", &width, &times, &height, &more) != 3 || times != 'x') {
-    throw UsageError("simulate: --size is " + text + "; give WIDTHxHEIGHT, such as 640x480");
+    throw UsageError("--size is " + text + "; give WIDTHxHEIGHT, such as 640x480");
   }
   options.width = width;
   options.height = height;
@@ -190,7 +190,7 @@ void add_depth_options(CLI::App& command, Changes& add) {
   add.option<int>("--frames", "Depth frames; default: one an image",
                   [](Options& o, int v) { o.depth.frames = v; });
   add.option<double>("--depth-noise-mm",
-                     "Deviation at 1 m of the noise correlated in space; default: 3; white noise is a third",
+                     "Deviation at 1 m of the noise correlated in space; default: 4.5; white noise is a third",
                      [](Options& o, double v) {
                        o.depth.noise_mm = v;
                        o.depth.white_noise_mm = v / 3;

@@ -14,7 +14,7 @@ namespace {
 void require(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
   std::ostringstream text;
-  text << "simulate: " << name << " is " << value << "; give a value from " << low << " to " << high;
+  text << name << " is " << value << "; give a value from " << low << " to " << high;
   throw UsageError(text.str());
 }
 
@@ -35,7 +35,7 @@ void check_image(const ImageOptions& image) {
   require("read noise", image.read_noise, 0, 1);
   require("clip share", image.clip_share, 0, 0.5);
   require("crosstalk", image.crosstalk, 0, 0.4);
-  if (image.bits != 8 && image.bits != 16) throw UsageError("simulate: bits must be 8 or 16");
+  if (image.bits != 8 && image.bits != 16) throw UsageError("bits must be 8 or 16");
 }
 
 void check_depth(const DepthSensorOptions& depth) {

@@ -91,8 +91,8 @@ void place(Mesh& mesh, const SceneOptions& options, const Camera& camera) {
 }
 
 Mesh make_scene(const SceneOptions& options, const Camera& camera) {
-  // Facets of half a pixel; beyond 1400 pixels smooth normals carry the rest.
-  constexpr int kMaxDetail = 1400;
+  // Facets of about half a pixel; beyond 700 pixels smooth normals carry the rest.
+  constexpr int kMaxDetail = 700;
   Mesh mesh = object_mesh(options, std::min(camera.height, kMaxDetail));
   place(mesh, options, camera);
   return mesh;
