@@ -110,7 +110,9 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "rakelight " RAKELIGHT_VERSION);
   program.footer(kFooter);
   add_import_command(program, exit_code);
+  add_evaluate_command(program, exit_code);
   add_info_command(program, exit_code);
+  add_refine_command(program, exit_code);
   add_verify_command(program, exit_code);
   program.require_subcommand(1);
 #ifdef RAKELIGHT_HAS_SIMULATE

@@ -4,6 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -27,7 +28,7 @@ constexpr int kNotConverged = 7;
 
 struct Arguments {
   std::filesystem::path stack, output, config;
-  std::optional<std::string> method, preset, mask, response;
+  std::optional<std::string> method, preset, mask, response, lamps;
   std::optional<int> scale, iterations, threads;
   bool json = false;
 };
@@ -62,6 +63,7 @@ RefineOptions options_of(const Arguments& arguments) {
   options.scale = arguments.scale.value_or(options.scale);
   options.max_iterations = arguments.iterations.value_or(options.max_iterations);
   options.threads = arguments.threads.value_or(options.threads);
+  options.lamps.model = value_named<LampModel>(arguments.lamps).value_or(options.lamps.model);
   return options;
 }
 
@@ -73,11 +75,17 @@ LightStack stack_of(const Arguments& arguments) {
 }
 
 RefineResult refine_with_bar(const LightStack& stack, const RefineOptions& options) {
+  using Clock = std::chrono::steady_clock;
   ProgressBar bar;
-  return refine_depth(stack, options, [&bar](const Progress& progress) {
+  std::vector<Clock::time_point> ends;  // of the preparation and of each iteration
+  RefineResult result = refine_depth(stack, options, [&](const Progress& progress) {
     bar.show(progress);
+    ends.resize(static_cast<size_t>(progress.iteration) + 1, Clock::now());
     return !interrupted();
   });
+  for (size_t i = 0; i < result.iterations.size() && i + 1 < ends.size(); ++i)
+    result.iterations[i].seconds = std::chrono::duration<double>(ends[i + 1] - ends[i]).count();
+  return result;
 }
 
 void print_json(const RefineResult& result, const std::filesystem::path& folder) {
@@ -126,6 +134,10 @@ void add_refine_command(CLI::App& program, int& exit_code) {
       ->add_option("--preset", arguments->preset,
                    "robust (default): for real data; paper: the paper to the letter")
       ->check(CLI::IsMember(names_of<Preset>()));
+  command
+      ->add_option("--lamps", arguments->lamps,
+                   "Lamp model: auto (default) takes near lamps if they explain the images clearly better")
+      ->check(CLI::IsMember(names_of<LampModel>()));
   command
       ->add_option("--scale", arguments->scale,
                    "Refined grid / depth grid, 1 to 4; default: as fine as the colour images")

@@ -17,6 +17,15 @@ inline constexpr std::array<Enum, 0> kValuesOf{};
 template <>
 inline constexpr std::array kValuesOf<Method>{Method::multi_light};
 template <>
+inline constexpr std::array kValuesOf<Linearization>{Linearization::gauss_newton, Linearization::fixed_point};
+template <>
+inline constexpr std::array kValuesOf<Stencil>{Stencil::forward, Stencil::symmetric};
+template <>
+inline constexpr std::array kValuesOf<LampModel>{LampModel::automatic, LampModel::far, LampModel::near};
+template <>
+inline constexpr std::array kValuesOf<LampPositions>{LampPositions::estimated, LampPositions::start,
+                                                     LampPositions::fixed};
+template <>
 inline constexpr std::array kValuesOf<Preset>{Preset::paper, Preset::robust};
 
 /// Calls visit(name, field) for every parameter; a dot in a name separates a group from its member.
@@ -27,9 +36,25 @@ void for_each_option(Options& options, Visitor&& visit) {
   visit("preset", options.preset);
   visit("scale", options.scale);
   visit("max_iterations", options.max_iterations);
+  visit("min_iterations", options.min_iterations);
+  visit("tolerance", options.tolerance);
   visit("threads", options.threads);
   visit("preprocess.bilateral_sigma_px", options.preprocess.bilateral_sigma_px);
   visit("preprocess.bilateral_sigma_noise", options.preprocess.bilateral_sigma_noise);
+  visit("lamps.model", options.lamps.model);
+  visit("lamps.positions", options.lamps.positions);
+  visit("lamps.lobe_exponent", options.lamps.lobe_exponent);
+  visit("lamps.settle_after", options.lamps.settle_after);
+  visit("trust.attached_shadows", options.trust.attached_shadows);
+  visit("trust.model_error", options.trust.model_error);
+  visit("trust.cauchy_scale", options.trust.cauchy_scale);
+  visit("trust.edge_weight", options.trust.edge_weight);
+  visit("depth.sensor_weight", options.depth.sensor_weight);
+  visit("depth.noise_ratio", options.depth.noise_ratio);
+  visit("depth.floor", options.depth.floor);
+  visit("depth.linearization", options.depth.linearization);
+  visit("depth.stencil", options.depth.stencil);
+  visit("depth.max_backtracks", options.depth.max_backtracks);
 }
 
 }  // namespace rakelight

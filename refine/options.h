@@ -10,6 +10,11 @@ namespace rakelight {
 
 enum class Method { multi_light, rgb_ratio, fusion_like, rgbd_fusion };
 enum class Preset { paper, robust };
+enum class Linearization { gauss_newton, fixed_point };
+enum class Stencil {
+  forward,    ///< one corner a pixel: forward differences, backward at the border (the paper)
+  symmetric,  ///< the mean over all four corners: unbiased, without the null space of central differences
+};
 
 /// Filling and smoothing of the sensor's depth before any method (Sec. III, first paragraph).
 struct PreprocessOptions {
@@ -17,13 +22,61 @@ struct PreprocessOptions {
   double bilateral_sigma_noise = 4.0;  ///< range of the bilateral filter, in measured depth noise deviations
 };
 
+enum class LampModel {
+  automatic,  ///< near if it explains the images clearly better than far
+  far,        ///< directional, first-order harmonics a channel (the paper)
+  near,       ///< point sources
+};
+enum class LampPositions {
+  estimated,  ///< from images and depth alone
+  start,      ///< started from position_m of the stack's lights
+  fixed,      ///< held at position_m of the stack's lights
+};
+
+/// The lamps, Eq. (26) and refine/lamp.h.
+struct LampOptions {
+  LampModel model = LampModel::automatic;
+  LampPositions positions = LampPositions::estimated;
+  double lobe_exponent = 1;  ///< emission cos^m about the axis towards the object: 0 isotropic, 1 Lambertian LED
+  int settle_after = 20;     ///< outer iterations after which near distances are no longer over-relaxed
+};
+
+/// Which samples are believed.
+struct TrustOptions {
+  bool attached_shadows = true;  ///< shading is max(0, l.n) + phi
+  /// Model error no image is free of, as a share of the median radiance: floor of the robust scale sigma.
+  double model_error = 0.035;
+  double cauchy_scale = 1.0;     ///< k: weight 1 / (1 + (r / (k sigma))^2) a pixel and image; 0: off (the paper)
+  double edge_weight = 10;       ///< a corner's term is divided by 1 + e / (edge_weight median e); 0: off (the paper)
+};
+
+/// The depth step, Eq. (32) and (34).
+struct DepthOptions {
+  /// lambda_z on log z, against intensities in [0, 1] (the paper: 100). 0: from the measured noise of images and depth.
+  double sensor_weight = 0;
+  /// With sensor_weight 0: lambda_z = noise_ratio * image error variance / variance of log depth, both measured on
+  /// blocks (refine/steps/noise.h). Above 1 because errors of the lamp and reflectance model are correlated beyond a
+  /// block and over images, while the sensor's are not.
+  double noise_ratio = 16;
+  double floor = 0.5;  ///< weak pull of every refined pixel to the start, on log z (METHODS: super-resolution)
+  Linearization linearization = Linearization::gauss_newton;
+  Stencil stencil = Stencil::symmetric;
+  int max_backtracks = 8;  ///< halvings of a step that would raise the energy; 0: take it as it is (the paper)
+};
+
 struct RefineOptions {
   Method method = Method::multi_light;
   Preset preset = Preset::robust;
-  int scale = 0;           ///< refined grid / depth grid, 1 to 4; 0: as fine as the colour images are
-  int max_iterations = 25; ///< outer iterations
-  int threads = 0;         ///< 0: all; the result does not depend on it
+  int scale = 0;            ///< refined grid / depth grid, 1 to 4; 0: as fine as the colour images are
+  int max_iterations = 30;  ///< outer iterations
+  int min_iterations = 12;  ///< robust: no stop before the lamp model is chosen and has taken effect
+  double tolerance = 0.02;  ///< robust: stop when depth moves less than this share of a depth pixel's noise (rms);
+                            ///< paper: epsilon, the relative change of the energy
+  int threads = 0;          ///< 0: all; the result does not depend on it
   PreprocessOptions preprocess;
+  LampOptions lamps;
+  TrustOptions trust;
+  DepthOptions depth;
 };
 
 /// The defaults of a preset for a method.
@@ -31,5 +84,9 @@ RefineOptions preset_options(Preset preset, Method method = Method::multi_light)
 
 std::string to_string(Method method);
 std::string to_string(Preset preset);
+std::string to_string(Linearization linearization);
+std::string to_string(Stencil stencil);
+std::string to_string(LampModel model);
+std::string to_string(LampPositions positions);
 
 }  // namespace rakelight

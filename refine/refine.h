@@ -8,9 +8,11 @@
 //     write_result(result, out);                        // refine/output/result_io.h
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <map>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,14 +36,18 @@ struct IterationReport {
   double depth_change_mm = 0;      ///< root mean square change of depth
   double residual_scale = 0;       ///< robust standard deviation of the photometric residual, linear radiance
   int backtracks = 0;              ///< halvings the depth step needed
-  double seconds = 0;
+  double sensor_weight = 0;        ///< lambda_z used, on log z
+  double seconds = 0;              ///< wall time; filled in by a caller who has a clock: the engine reads none
 };
 
-/// Light of one image: first-order spherical harmonics a channel, I = rho (l.n + phi), camera coordinates.
+/// Light of one image, camera coordinates: S_c = l_c . n + phi_c at the object's centre.
 struct LightEstimate {
   std::string id;
   int frame_index = 0;
-  cv::Matx34d sh;  ///< row c (R, G, B): l_x, l_y, l_z, phi
+  Eigen::Matrix<double, 3, 4> sh_rgb = Eigen::Matrix<double, 3, 4>::Zero();  ///< row c (R, G, B): l_x, l_y, l_z, phi
+  std::optional<Eigen::Vector3d> position_m;  ///< of a near lamp (refine/lamp.h)
+  double distance_deviation_m = 0;            ///< of its distance from the object's centre
+  double direction_deviation_rad = 0;         ///< of its direction
 };
 
 struct RefineResult {
@@ -65,6 +71,7 @@ struct RefineResult {
 struct Progress {
   std::string stage;        ///< e.g. "depth step"
   double fraction_done = 0; ///< of the whole, 0 to 1
+  int iteration = 0;        ///< outer iterations done
 };
 using ProgressCallback = std::function<bool(const Progress&)>;
 

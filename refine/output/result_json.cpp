@@ -38,9 +38,17 @@ Json json_of(const RefineOptions& options) {
 
 Json json_of(const LightEstimate& light) {
   Json rows = Json::array();
-  for (int c = 0; c < 3; ++c)
-    rows.push_back({light.sh(c, 0), light.sh(c, 1), light.sh(c, 2), light.sh(c, 3)});
-  return {{"id", light.id}, {"frame", light.frame_index}, {"sh_rgb", rows}};
+  for (int c = 0; c < 3; ++c) {
+    const auto row = light.sh_rgb.row(c);
+    rows.push_back({row[0], row[1], row[2], row[3]});
+  }
+  Json json = {{"id", light.id}, {"frame", light.frame_index}, {"sh_rgb", rows}};
+  if (light.position_m) {
+    json["position_m"] = {light.position_m->x(), light.position_m->y(), light.position_m->z()};
+    json["distance_deviation_m"] = light.distance_deviation_m;
+    json["direction_deviation_rad"] = light.direction_deviation_rad;
+  }
+  return json;
 }
 
 Json json_of(const IterationReport& iteration) {
@@ -50,6 +58,7 @@ Json json_of(const IterationReport& iteration) {
           {"depth_change_mm", iteration.depth_change_mm},
           {"residual_scale", iteration.residual_scale},
           {"backtracks", iteration.backtracks},
+          {"sensor_weight", iteration.sensor_weight},
           {"seconds", iteration.seconds}};
 }
 

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What every method takes and gives.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "refine/problem.h"
+#include "refine/refine.h"
+#include "refine/surface_state.h"
+
+namespace rakelight {
+
+struct MethodResult {
+  SurfaceState state;
+  std::vector<IterationReport> iterations;
+  Termination termination = Termination::max_iterations;
+  std::string message;                   ///< one sentence on how it ended
+  std::vector<std::string> warnings;
+  std::map<std::string, double> quality; ///< named measures
+};
+
+/// Called after each outer iteration with its number and the share done; throws Cancelled to stop.
+using IterationCallback = std::function<void(int iteration, double fraction_done)>;
+
+}  // namespace rakelight

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/multi_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "refine/steps/albedo.h"
+#include "refine/steps/depth_step.h"
+#include "refine/steps/lamp_estimator.h"
+#include "refine/steps/lighting.h"
+#include "refine/steps/noise.h"
+#include "refine/steps/normals.h"
+#include "refine/steps/robust_weights.h"
+#include "stack/errors.h"
+
+namespace rakelight {
+namespace {
+
+SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& options) {
+  SurfaceState state;
+  state.zeta = problem.prior.start;
+  state.points = surface_points(problem.grid, state.zeta);
+  state.scene = {state.points.rowwise().mean(), static_cast<float>(options.lamps.lobe_exponent)};
+  state.albedo = Eigen::Matrix3Xf::Ones(3, problem.grid.size());
+  state.attached_shadows = options.trust.attached_shadows;
+  state.weight = usable_weights(problem.images);
+  return state;
+}
+
+/// lambda_z: as given, or the ratio of the measured error variances (refine/steps/noise.h).
+class SensorWeight {
+ public:
+  SensorWeight(const RefineProblem& problem, const RefineOptions& options, double image_floor)
+      : problem_(problem), options_(options.depth), image_floor_(image_floor) {}
+
+  double operator()(const SurfaceState& state, int iteration, MeasuredNoise& noise) const {
+    if (options_.sensor_weight > 0) return options_.sensor_weight;
+    noise = measure_noise(problem_.grid, problem_.images, state, problem_.prior, problem_.scale);
+    noise.image = std::max(noise.image, image_floor_);
+    // The start is the smoothed reading itself, so a first look at their difference would flatter the sensor.
+    const double least = (iteration <= 3 ? 3 : 2) * problem_.depth_noise;
+    noise.depth = std::max(noise.depth, least);
+    const double ratio = noise.image / noise.depth;
+    return options_.noise_ratio * ratio * ratio;
+  }
+
+ private:
+  const RefineProblem& problem_;
+  const DepthOptions& options_;
+  double image_floor_;
+};
+
+double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  return std::sqrt((after.array().exp() - before.array().exp()).square().mean());
+}
+
+void require_three_directions(const Observations& images, const SurfaceState& state, MethodResult& result) {
+  const Eigen::Vector3d spread = lamp_singular_values(state.lamps, state.scene);
+  const double ratio = spread[0] > 0 ? spread[2] / spread[0] : 0;
+  result.quality["lamp_spread"] = ratio;
+  if (ratio < 0.03) {
+    throw InputError("the " + std::to_string(images.images) + " images",
+                     "their lamps shine from directions in one plane (or all from one), which leaves the shape undetermined",
+                     "add images lit from other sides");
+  }
+  if (ratio < 0.1) {
+    result.warnings.push_back("the lamps' directions are nearly in one plane: the shape across it is poorly determined");
+  }
+}
+
+/// Whether iteration reports say that the method has settled.
+bool settled(const RefineProblem& problem, const RefineOptions& options, const std::vector<IterationReport>& reports) {
+  const IterationReport& last = reports.back();
+  if (options.preset == Preset::paper) {  // Alg. 3, line 2
+    if (reports.size() < 2) return false;
+    const double previous = reports[reports.size() - 2].energy;
+    return std::abs(last.energy - previous) <= options.tolerance * previous;
+  }
+  return last.depth_change_mm < 1e3 * options.tolerance * problem.sensor.noise_m && last.index > options.min_iterations;
+}
+
+}  // namespace
+
+MethodResult refine_multi_light(const RefineProblem& problem, const RefineOptions& options,
+                                const IterationCallback& after_iteration) {
+  const Observations& images = problem.images;
+  MethodResult result;
+  SurfaceState& state = result.state = initial_state(problem, options);
+  const auto solver = make_cholesky_depth_solver(problem.grid, problem.prior.cells);
+  const double model_error = options.trust.model_error * median_radiance(images);
+  const SensorWeight sensor_weight(problem, options, model_error);
+  LampEstimator lamps(options.lamps);
+  DepthPrior prior = problem.prior;
+  MeasuredNoise noise;
+
+  for (int t = 1; t <= options.max_iterations; ++t) {
+    IterationReport report;
+    report.index = t;
+    state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
+    state.points = surface_points(problem.grid, state.zeta);
+
+    lamps.update(images, state, t);                                                   // Eq. (26)
+    if (t == 1) require_three_directions(images, state, result);
+    state.albedo = estimate_albedo(images, state);                                    // Eq. (27)
+    normalize_albedo(state);
+    report.residual_scale = std::max(residual_scale(images, state), model_error);
+    if (options.trust.cauchy_scale > 0)
+      state.weight = cauchy_weights(images, state, options.trust.cauchy_scale * report.residual_scale);
+
+    prior.cell_weight = sensor_weight(state, t, noise) * problem.prior.cell_weight;
+    const auto tensors = accumulate_tensors(images, state);
+    const auto weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
+    const DepthProblem depth{problem.grid, problem.corners, tensors, weights, prior};
+    const Eigen::VectorXd before = state.zeta;
+    const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (32), (34)
+
+    report.energy_before_depth = step.energy_before;
+    report.energy = step.energy_after;
+    report.backtracks = step.backtracks;
+    report.depth_change_mm = 1e3 * rms_change_m(before, state.zeta);
+    report.sensor_weight = prior.cell_weight.maxCoeff();
+    result.iterations.push_back(report);
+    after_iteration(t, static_cast<double>(t) / options.max_iterations);
+
+    if (!step.solved) {
+      result.termination = Termination::diverged;
+      result.message = "the depth system was singular at iteration " + std::to_string(t) + "; the state before it is given";
+      break;
+    }
+    if (settled(problem, options, result.iterations)) {
+      result.termination = Termination::converged;
+      result.message = "settled after " + std::to_string(t) + " iterations";
+      break;
+    }
+  }
+  if (result.termination == Termination::max_iterations)
+    result.message = "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations, still moving";
+  state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
+  state.points = surface_points(problem.grid, state.zeta);
+  result.message += "; " + lamps.explanation();
+  result.quality["far_over_near_residual"] = lamps.far_over_near();
+  result.quality["image_noise"] = noise.image;
+  result.quality["depth_noise_log"] = noise.depth;
+  result.quality["sensor_weight"] = prior.cell_weight.maxCoeff();
+  return result;
+}
+
+}  // namespace rakelight

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the images say at the pixels of the grid.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "refine/pixel_grid.h"
+#include "stack/stack.h"
+
+namespace rakelight {
+
+/// Linear radiance of every lit image at the grid's pixels, planar: one run of pixels a channel, three channels an image.
+struct Observations {
+  int pixels = 0;
+  int images = 0;
+  std::vector<float> radiance;        ///< [image][channel][pixel]
+  std::vector<unsigned char> usable;  ///< [image][pixel]: 0 where a channel is clipped or has no sample
+  std::vector<std::string> light_ids; ///< [image]
+  std::vector<int> frame_index;       ///< [image]
+  std::vector<bool> colored_lamps;    ///< [image] red, green and blue lamps at once
+  std::vector<std::optional<Eigen::Vector3d>> lamp_positions;  ///< [image] where the stack gives one, metres
+
+  const float* channel(int image, int c) const {
+    return radiance.data() + (static_cast<size_t>(image) * 3 + static_cast<size_t>(c)) * static_cast<size_t>(pixels);
+  }
+  const unsigned char* usable_in(int image) const {
+    return usable.data() + static_cast<size_t>(image) * static_cast<size_t>(pixels);
+  }
+};
+
+/// Samples every lit frame of the stack on the grid, whose camera is the colour camera, undistorted and averaged down.
+/// Dark frames are subtracted. One image is held decoded at a time.
+Observations observe(const LightStack& stack, const PixelGrid& grid);
+
+}  // namespace rakelight

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/options.h"
+
+namespace rakelight {
+
+RefineOptions preset_options(Preset preset, Method method) {
+  RefineOptions options;
+  options.preset = preset;
+  options.method = method;
+  if (preset == Preset::robust) return options;
+  options.max_iterations = 20;
+  options.min_iterations = 2;
+  options.tolerance = 0.01;
+  options.lamps.model = LampModel::far;
+  options.trust.attached_shadows = false;
+  options.trust.model_error = 0;
+  options.trust.cauchy_scale = 0;
+  options.trust.edge_weight = 0;
+  options.depth.sensor_weight = 100;
+  options.depth.linearization = Linearization::fixed_point;
+  options.depth.stencil = Stencil::forward;
+  options.depth.max_backtracks = 0;
+  return options;
+}
+
+std::string to_string(Method method) {
+  switch (method) {
+    case Method::multi_light: return "multi-light";
+    case Method::rgb_ratio: return "rgb-ratio";
+    case Method::fusion_like: return "fusion-like";
+    case Method::rgbd_fusion: return "rgbd-fusion";
+  }
+  return "unknown";
+}
+
+std::string to_string(Preset preset) { return preset == Preset::paper ? "paper" : "robust"; }
+
+std::string to_string(Linearization linearization) {
+  return linearization == Linearization::gauss_newton ? "gauss-newton" : "fixed-point";
+}
+
+std::string to_string(Stencil stencil) { return stencil == Stencil::forward ? "forward" : "symmetric"; }
+
+std::string to_string(LampModel model) {
+  switch (model) {
+    case LampModel::automatic: return "auto";
+    case LampModel::far: return "far";
+    case LampModel::near: return "near";
+  }
+  return "unknown";
+}
+
+std::string to_string(LampPositions positions) {
+  switch (positions) {
+    case LampPositions::estimated: return "estimated";
+    case LampPositions::start: return "start";
+    case LampPositions::fixed: return "fixed";
+  }
+  return "unknown";
+}
+
+}  // namespace rakelight

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/refine.h"
+
+#include <algorithm>
+#include <limits>
+#include <opencv2/core/utility.hpp>
+
+#include "refine/method.h"
+#include "refine/multi_light.h"
+#include "refine/problem.h"
+#include "refine/steps/near_lamps.h"
+#include "refine/steps/noise.h"
+#include "stack/check.h"
+#include "stack/errors.h"
+
+namespace rakelight {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr double kPreparation = 0.1;  // share of the work before the first iteration
+
+/// Holds OpenCV's thread count while a refinement runs.
+class ThreadCount {
+ public:
+  explicit ThreadCount(int threads) : before_(cv::getNumThreads()) {
+    if (threads > 0) cv::setNumThreads(threads);
+  }
+  ~ThreadCount() { cv::setNumThreads(before_); }
+  ThreadCount(const ThreadCount&) = delete;
+  ThreadCount& operator=(const ThreadCount&) = delete;
+
+ private:
+  int before_;
+};
+
+void report(const ProgressCallback& progress, const std::string& stage, double fraction, int iteration) {
+  if (progress && !progress({stage, fraction, iteration})) throw Cancelled();
+}
+
+cv::Mat3f scatter3(const PixelGrid& grid, const Eigen::Matrix3Xf& values) {
+  cv::Mat3f image(grid.index.size(), cv::Vec3f::all(kNaN));
+  for (int p = 0; p < grid.size(); ++p)
+    image(grid.pixels[static_cast<size_t>(p)]) = {values(0, p), values(1, p), values(2, p)};
+  return image;
+}
+
+cv::Mat1b inpainted_on_grid(const RefineProblem& problem) {
+  cv::Mat1b image(problem.grid.index.size(), uchar{0});
+  for (const cv::Point& at : problem.grid.pixels)
+    image(at) = problem.sensor.inpainted(at.y / problem.scale, at.x / problem.scale);
+  return image;
+}
+
+std::vector<LightEstimate> light_estimates(const Observations& images, const SurfaceState& state) {
+  const std::vector<LampUncertainty> uncertainty = near_lamp_uncertainty(images, state, {});
+  std::vector<LightEstimate> estimates;
+  for (size_t i = 0; i < state.lamps.size(); ++i) {
+    const Lamp& lamp = state.lamps[i];
+    const LocalLight light = light_at(lamp, state.scene.center, state.scene);
+    LightEstimate estimate;
+    estimate.id = images.light_ids[i];
+    estimate.frame_index = images.frame_index[i];
+    for (int c = 0; c < 3; ++c)
+      estimate.sh_rgb.row(c) << light.l.row(c).cast<double>(), static_cast<double>(light.phi[c]);
+    if (lamp.near) {
+      estimate.position_m = lamp_position(lamp, state.scene);
+      estimate.distance_deviation_m = uncertainty[i].distance_deviation;
+      estimate.direction_deviation_rad = uncertainty[i].direction_deviation;
+    }
+    estimates.push_back(estimate);
+  }
+  return estimates;
+}
+
+RefineResult make_result(const RefineProblem& problem, MethodResult method, const RefineOptions& options) {
+  const PixelGrid& grid = problem.grid;
+  RefineResult result;
+  result.camera = grid.camera;
+  result.scale = problem.scale;
+  result.depth = scatter(grid, method.state.zeta.array().exp());
+  result.initial_depth = scatter(grid, problem.prior.start.array().exp());
+  result.normals = scatter3(grid, method.state.normals);
+  result.albedo = scatter3(grid, method.state.albedo);
+  result.inpainted = inpainted_on_grid(problem);
+  result.lights = light_estimates(problem.images, method.state);
+  result.iterations = std::move(method.iterations);
+  result.termination = method.termination;
+  result.message = std::move(method.message);
+  result.warnings = std::move(method.warnings);
+  result.quality = std::move(method.quality);
+  result.quality["coverage"] = 1.0 - static_cast<double>(cv::countNonZero(result.inpainted)) / grid.size();
+  result.quality["depth_noise_m"] = problem.sensor.noise_m;
+  result.options = options;
+  result.options.scale = problem.scale;
+  return result;
+}
+
+}  // namespace
+
+RefineResult refine_depth(const LightStack& stack, const RefineOptions& options, const ProgressCallback& progress) {
+  const ThreadCount threads(options.threads);
+  report(progress, "preparing", 0.0, 0);
+  check_stack(stack);
+  const RefineProblem problem = make_problem(stack, options);
+  report(progress, "refining", kPreparation, 0);
+  const IterationCallback after_iteration = [&](int iteration, double fraction) {
+    report(progress, "refining", kPreparation + (1 - kPreparation) * fraction, iteration);
+  };
+  return make_result(problem, refine_multi_light(problem, options, after_iteration), options);
+}
+
+}  // namespace rakelight

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "refine/solver/depth_solver.h"
+#include "refine/solver/sparse_cholesky.h"
+
+namespace rakelight {
+namespace {
+
+/// Lower triangle with a fixed pattern, filled entry by entry.
+class SymmetricPattern {
+ public:
+  SymmetricPattern(const PixelGrid& grid, const DepthCells& cells) : lower_(grid.size(), grid.size()) {
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto couple = [&](int a, int b) {
+      if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
+    };
+    for (int p = 0; p < grid.size(); ++p) {
+      const cv::Point at = grid.pixels[static_cast<size_t>(p)];
+      couple(p, p);
+      couple(p, grid.neighbor[kRight][static_cast<size_t>(p)]);
+      couple(p, grid.neighbor[kDown][static_cast<size_t>(p)]);
+      couple(p, number_at(grid, at.x + 1, at.y + 1));
+      couple(p, number_at(grid, at.x - 1, at.y + 1));
+    }
+    for (const auto& pixels : cells.pixels_of) {
+      for (size_t i = 0; i < pixels.size(); ++i)
+        for (size_t j = 0; j < i; ++j) couple(pixels[i], pixels[j]);
+    }
+    lower_.setFromTriplets(entries.begin(), entries.end());
+    lower_.makeCompressed();
+  }
+
+  void clear() { std::fill_n(lower_.valuePtr(), lower_.nonZeros(), 0.0); }
+
+  void add(int a, int b, double value) {
+    const int column = std::min(a, b), row = std::max(a, b);
+    const int* begin = lower_.innerIndexPtr() + lower_.outerIndexPtr()[column];
+    const int* end = lower_.innerIndexPtr() + lower_.outerIndexPtr()[column + 1];
+    lower_.valuePtr()[std::lower_bound(begin, end, row) - lower_.innerIndexPtr()] += value;
+  }
+
+  static int number_at(const PixelGrid& grid, int u, int v) {
+    const bool inside = u >= 0 && v >= 0 && u < grid.index.cols && v < grid.index.rows;
+    return inside ? grid.index(v, u) : -1;
+  }
+
+  const SparseCholesky::Matrix& lower() const { return lower_; }
+
+ private:
+  SparseCholesky::Matrix lower_;
+};
+
+class CholeskyDepthSolver final : public DepthSolver {
+ public:
+  CholeskyDepthSolver(const PixelGrid& grid, const DepthCells& cells)
+      : grid_(grid), cells_(cells), matrix_(grid, cells) {}
+
+  bool solve(const DepthSystem& system, Eigen::VectorXd& x) override {
+    assemble(system);
+    if (!cholesky_.factorize(matrix_.lower())) return false;
+    Eigen::VectorXd solution = cholesky_.solve(system.rhs);
+    if (!solution.allFinite()) return false;
+    x = std::move(solution);
+    return true;
+  }
+
+  Eigen::VectorXd sample(const Eigen::VectorXd& white) const override { return cholesky_.sample(white); }
+
+ private:
+  void assemble(const DepthSystem& system) {
+    matrix_.clear();
+    for (int p = 0; p < grid_.size(); ++p) {
+      const size_t i = static_cast<size_t>(p);
+      const cv::Point at = grid_.pixels[i];
+      matrix_.add(p, p, system.diagonal[i]);
+      add_if_inside(p, grid_.neighbor[kRight][i], system.right[i]);
+      add_if_inside(p, grid_.neighbor[kDown][i], system.down[i]);
+      add_if_inside(p, SymmetricPattern::number_at(grid_, at.x + 1, at.y + 1), system.down_right[i]);
+      add_if_inside(p, SymmetricPattern::number_at(grid_, at.x - 1, at.y + 1), system.down_left[i]);
+    }
+    for (size_t cell = 0; cell < cells_.pixels_of.size(); ++cell) {
+      const auto& pixels = cells_.pixels_of[cell];
+      const double count = static_cast<double>(pixels.size());
+      const double weight = system.cell_weight[static_cast<Eigen::Index>(cell)] / (count * count);
+      for (size_t i = 0; i < pixels.size(); ++i)
+        for (size_t j = 0; j <= i; ++j) matrix_.add(pixels[i], pixels[j], weight);
+    }
+  }
+
+  void add_if_inside(int p, int q, double value) {
+    if (q >= 0) matrix_.add(p, q, value);
+  }
+
+  const PixelGrid& grid_;
+  const DepthCells& cells_;
+  SymmetricPattern matrix_;
+  SparseCholesky cholesky_;
+};
+
+}  // namespace
+
+std::unique_ptr<DepthSolver> make_cholesky_depth_solver(const PixelGrid& grid, const DepthCells& cells) {
+  return std::make_unique<CholeskyDepthSolver>(grid, cells);
+}
+
+}  // namespace rakelight

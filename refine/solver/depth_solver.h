@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The linear system of a depth step and what solves it.
+//
+// The photometric rows at a pixel share its differences, so A'A is a 9-point stencil on the mask; the sensor's depth
+// adds K' Lambda K with K the mean over the s x s block of a depth pixel (Eq. 34), and a weak diagonal.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "refine/pixel_grid.h"
+
+namespace rakelight {
+
+/// Which refined pixels the reading of a depth pixel is the mean of.
+struct DepthCells {
+  std::vector<int> cell_of;               ///< [pixel]: number of its cell
+  std::vector<std::vector<int>> pixels_of;  ///< [cell]: its pixels, at most s x s
+};
+
+/// Symmetric system (stencil + K' diag(cell_weight) K) x = rhs.
+struct DepthSystem {
+  std::vector<double> diagonal, right, down, down_right, down_left;  ///< entry (p, neighbour of p in that direction)
+  Eigen::VectorXd cell_weight;  ///< Lambda, a number a cell
+  Eigen::VectorXd rhs;
+
+  explicit DepthSystem(int pixels)
+      : diagonal(static_cast<size_t>(pixels)), right(diagonal), down(diagonal), down_right(diagonal),
+        down_left(diagonal), rhs(Eigen::VectorXd::Zero(pixels)) {}
+};
+
+class DepthSolver {
+ public:
+  virtual ~DepthSolver() = default;
+
+  /// Solves the system. @return false when it is not positive definite; x is then untouched.
+  virtual bool solve(const DepthSystem& system, Eigen::VectorXd& x) = 0;
+
+  /// Draws from the normal distribution whose precision is the last system solved. @param white standard normal.
+  virtual Eigen::VectorXd sample(const Eigen::VectorXd& white) const = 0;
+};
+
+/// The exact solver: CHOLMOD, symbolic factorisation kept. The grid and cells must outlive it.
+std::unique_ptr<DepthSolver> make_cholesky_depth_solver(const PixelGrid& grid, const DepthCells& cells);
+
+}  // namespace rakelight

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which lamp model an image set gets, and its estimate at each outer iteration.
+//
+// The far model starts; a near model takes over once the shape has settled a little, because a real rig's lamps stand
+// near and then the far model is simply wrong. The far model is a special case of the near one, so on far data the
+// near model does no harm; it is kept only if it explains the images clearly better.
+#pragma once
+
+#include <string>
+
+#include "refine/observations.h"
+#include "refine/options.h"
+#include "refine/steps/near_lamps.h"
+#include "refine/surface_state.h"
+
+namespace rakelight {
+
+class LampEstimator {
+ public:
+  explicit LampEstimator(const LampOptions& options) : options_(options) {}
+
+  /// Estimates the state's lamps for outer iteration `iteration` (from 1). Call it in order.
+  void update(const Observations& images, SurfaceState& state, int iteration);
+
+  /// One sentence: the model used, and why.
+  std::string explanation() const { return explanation_; }
+
+  /// Residual scale of the far model over that of the near one, 0 if they were not compared.
+  double far_over_near() const { return far_over_near_; }
+
+ private:
+  void start_near(const Observations& images, SurfaceState& state);
+  void choose(const Observations& images, SurfaceState& state);
+
+  LampOptions options_;
+  bool near_ = false;
+  double far_over_near_ = 0;
+  std::string explanation_ = "far lamps: the near model was not tried";
+};
+
+}  // namespace rakelight

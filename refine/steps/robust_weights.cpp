@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/steps/robust_weights.h"
+
+#include <algorithm>
+
+#include "refine/pixel_blocks.h"
+
+namespace rakelight {
+namespace {
+
+Eigen::Vector3f residual(const Observations& images, const SurfaceState& state, int i, int p) {
+  const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), state.scene);
+  const Eigen::Vector3f S = shading(light, state.normals.col(p), state.attached_shadows);
+  return state.albedo.col(p).cwiseProduct(S) -
+         Eigen::Vector3f(images.channel(i, 0)[p], images.channel(i, 1)[p], images.channel(i, 2)[p]);
+}
+
+/// Median of |value(image, pixel)| over usable samples and channels.
+template <class Value>
+double median_of_samples(const Observations& images, const Value& value) {
+  constexpr int kSamplesAnImage = 20000;  // enough for a median good to a percent
+  const int step = std::max(1, images.pixels / kSamplesAnImage);
+  std::vector<float> sizes;
+  for (int i = 0; i < images.images; ++i) {
+    for (int p = 0; p < images.pixels; p += step) {
+      if (!images.usable_in(i)[p]) continue;
+      const Eigen::Vector3f v = value(i, p);
+      for (int c = 0; c < 3; ++c) sizes.push_back(std::abs(v[c]));
+    }
+  }
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+double residual_scale(const Observations& images, const SurfaceState& state) {
+  return 1.4826 * median_of_samples(images, [&](int i, int p) { return residual(images, state, i, p); });
+}
+
+double median_radiance(const Observations& images) {
+  return median_of_samples(images, [&](int i, int p) {
+    return Eigen::Vector3f(images.channel(i, 0)[p], images.channel(i, 1)[p], images.channel(i, 2)[p]);
+  });
+}
+
+std::vector<float> cauchy_weights(const Observations& images, const SurfaceState& state, double scale) {
+  std::vector<float> weight(images.usable.size());
+  const float inverse = static_cast<float>(1.0 / (3.0 * scale * scale));
+  for_each_block(images.pixels, [&](int begin, int end) {
+    for (int i = 0; i < images.images; ++i) {
+      float* w = weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
+      for (int p = begin; p < end; ++p) {
+        w[p] = images.usable_in(i)[p] ? 1.0f / (1.0f + residual(images, state, i, p).squaredNorm() * inverse) : 0.0f;
+      }
+    }
+  });
+  return weight;
+}
+
+std::vector<float> usable_weights(const Observations& images) {
+  return {images.usable.begin(), images.usable.end()};
+}
+
+}  // namespace rakelight

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Cauchy weights: cast shadows, highlights and reflections are samples the model cannot explain, so each sample is
+// weighed by 1 / (1 + (r / (k sigma))^2), sigma the robust scale 1.4826 median |r| of all residuals.
+#pragma once
+
+#include "refine/observations.h"
+#include "refine/surface_state.h"
+
+namespace rakelight {
+
+/// sigma = 1.4826 median over usable samples of |rho S - I|, linear radiance.
+double residual_scale(const Observations& images, const SurfaceState& state);
+
+/// Median over usable samples of the radiance: the brightness that errors are held against.
+double median_radiance(const Observations& images);
+
+/// Weights of all samples; r^2 is the mean over the channels. 0 where a sample is not usable.
+/// @param scale k sigma above
+std::vector<float> cauchy_weights(const Observations& images, const SurfaceState& state, double scale);
+
+/// 1 where usable, else 0.
+std::vector<float> usable_weights(const Observations& images);
+
+}  // namespace rakelight
