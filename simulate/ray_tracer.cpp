@@ -67,7 +67,7 @@ RayTracer::RayTracer(Mesh mesh) : scene_(std::make_unique<Scene>()) {
   if (rtcGetDeviceError(scene_->device.get()) != RTC_ERROR_NONE) {
     throw std::runtime_error("ray casting: Embree could not build the scene");
   }
-  scene_->lift = std::max(1e-4f, static_cast<float>(0.1 * mean_edge_length(m)));
+  scene_->lift = static_cast<float>(std::clamp(0.1 * mean_edge_length(m), 1e-4, 5e-4));
 }
 
 RayTracer::~RayTracer() = default;
