@@ -189,12 +189,13 @@ void add_depth_options(CLI::App& command, Changes& add) {
   command.option_defaults()->group("Depth sensor");
   add.option<int>("--frames", "Depth frames; default: one an image",
                   [](Options& o, int v) { o.depth.frames = v; });
-  add.option<double>("--depth-noise-mm",
-                     "Deviation at 1 m of the noise correlated in space; default: 4.5; white noise is a third",
-                     [](Options& o, double v) {
-                       o.depth.noise_mm = v;
-                       o.depth.white_noise_mm = v / 3;
-                     })
+  add.option<double>(
+         "--depth-noise-mm",
+         "Deviation at 1 m of the noise correlated in space; default: 4.5; white noise is a third",
+         [](Options& o, double v) {
+           o.depth.noise_mm = v;
+           o.depth.white_noise_mm = v / 3;
+         })
       ->type_name("MM");
   add.option<double>("--disparity-step", "Quantisation; default: 0.125",
                      [](Options& o, double v) { o.depth.disparity_step_px = v; })

@@ -18,7 +18,7 @@ void require(const char* name, double value, double low, double high) {
   throw UsageError(text.str());
 }
 
-void check_lamps(const LampOptions& lamps) {
+void check_lamps(const RigOptions& lamps) {
   require("number of lights", lamps.count, lamps.rgb ? 0 : 1, 999);
   require("lamp distance (m)", lamps.distance_m, 0.05, 100);
   require("spread of lamp distances", lamps.distance_spread, 0, 0.9);

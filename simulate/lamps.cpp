@@ -19,7 +19,7 @@ Eigen::Vector3d toward_lamp(double polar, double azimuth) {
 }
 
 /// Two rings, taken in turn, a quarter inside and outside of the mean angle.
-Eigen::Vector3d ring_direction(const LampOptions& options, int k, int count) {
+Eigen::Vector3d ring_direction(const RigOptions& options, int k, int count) {
   const double angle = options.angle_deg * M_PI / 180;
   return toward_lamp(angle * (k % 2 == 0 ? 1.2 : 0.8), 2 * M_PI * (k + 0.3) / count);
 }
@@ -35,7 +35,7 @@ double wander(const CounterRandom& random, std::uint64_t channel, double x) {
 }
 
 /// A hand that goes around the object once and a bit, unevenly.
-Eigen::Vector3d swayed_direction(const LampOptions& options, std::uint64_t seed, int k, int count) {
+Eigen::Vector3d swayed_direction(const RigOptions& options, std::uint64_t seed, int k, int count) {
   const CounterRandom random(seed, kSway);
   const double x = static_cast<double>(k) / count;
   const double angle = options.angle_deg * M_PI / 180;
@@ -43,7 +43,7 @@ Eigen::Vector3d swayed_direction(const LampOptions& options, std::uint64_t seed,
   return toward_lamp(polar, 2 * M_PI * (1.15 * x + random.uniform(0)) + 0.5 * wander(random, 2, x));
 }
 
-double lamp_distance(const LampOptions& options, std::uint64_t seed, int k, int count) {
+double lamp_distance(const RigOptions& options, std::uint64_t seed, int k, int count) {
   const CounterRandom random(seed, kDistance);
   const double swing = options.layout == LampLayout::swayed
                            ? wander(random, 3, static_cast<double>(k) / count)
@@ -64,7 +64,7 @@ LampTruth make_lamp(const SimulateOptions& options, const std::string& id, LampC
 }
 
 LampSet white_lamp(const SimulateOptions& options, int k) {
-  const LampOptions& rig = options.lamps;
+  const RigOptions& rig = options.lamps;
   const Eigen::Vector3d direction = rig.layout == LampLayout::ring
                                         ? ring_direction(rig, k, rig.count)
                                         : swayed_direction(rig, options.seed, k, rig.count);
@@ -85,7 +85,7 @@ LampSet white_lamp(const SimulateOptions& options, int k) {
 
 /// Red, green and blue lamps a third of a turn apart, each alone in its channel.
 LampSet rgb_lamps(const SimulateOptions& options) {
-  const LampOptions& rig = options.lamps;
+  const RigOptions& rig = options.lamps;
   LampSet set;
   set.light = {"rgb", LampColor::rgb, {}, {}};
   const CounterRandom random(options.seed, kRgb);

@@ -6,7 +6,7 @@
 
 namespace rakelight {
 
-std::vector<Eigen::Vector3f> smooth_normals(const Mesh& mesh) {
+std::vector<Eigen::Vector3f> smooth_normals(const SceneMesh& mesh) {
   std::vector<Eigen::Vector3d> sums(mesh.vertices.size(), Eigen::Vector3d::Zero());
   for (const auto& [a, b, c] : mesh.triangles) {
     const Eigen::Vector3d origin = mesh.vertices[a].cast<double>();
@@ -23,7 +23,7 @@ std::vector<Eigen::Vector3f> smooth_normals(const Mesh& mesh) {
   return normals;
 }
 
-double mean_edge_length(const Mesh& mesh) {
+double mean_edge_length(const SceneMesh& mesh) {
   double sum = 0;
   for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {

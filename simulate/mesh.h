@@ -13,7 +13,7 @@
 namespace rakelight {
 
 /// Vertices, normals and texture coordinates run in parallel. Winding does not matter: surfaces are two-sided.
-struct Mesh {
+struct SceneMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3f> normals;  ///< unit length, for smooth shading
   std::vector<Eigen::Vector2f> texture;  ///< where the albedo is looked up, object's half size = 1
@@ -21,9 +21,9 @@ struct Mesh {
 };
 
 /// Normals of vertices as the area-weighted mean of their triangles'.
-std::vector<Eigen::Vector3f> smooth_normals(const Mesh& mesh);
+std::vector<Eigen::Vector3f> smooth_normals(const SceneMesh& mesh);
 
 /// Mean length of the triangles' edges; 0 without triangles.
-double mean_edge_length(const Mesh& mesh);
+double mean_edge_length(const SceneMesh& mesh);
 
 }  // namespace rakelight

@@ -12,7 +12,7 @@
 namespace rakelight {
 
 /// @param file for messages. Fills vertices and triangles only. @throws InputError
-Mesh parse_ply(const std::string& bytes, const std::filesystem::path& file);
-Mesh parse_obj(const std::string& bytes, const std::filesystem::path& file);
+SceneMesh parse_ply(const std::string& bytes, const std::filesystem::path& file);
+SceneMesh parse_obj(const std::string& bytes, const std::filesystem::path& file);
 
 }  // namespace rakelight

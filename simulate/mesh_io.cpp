@@ -28,7 +28,7 @@ std::string read_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-void check(const std::filesystem::path& file, const Mesh& mesh) {
+void check(const std::filesystem::path& file, const SceneMesh& mesh) {
   constexpr float kLargest = 1e12f;  // squares stay finite in single precision
   for (const auto& v : mesh.vertices) {
     if (!v.allFinite() || v.cwiseAbs().maxCoeff() > kLargest) {
@@ -47,7 +47,7 @@ void check(const std::filesystem::path& file, const Mesh& mesh) {
 }
 
 /// File axes (y up, z to the viewer) to object axes (y down, z away), centred, half of the longest side = 1.
-void to_object_axes(const std::filesystem::path& file, Mesh& mesh) {
+void to_object_axes(const std::filesystem::path& file, SceneMesh& mesh) {
   Eigen::AlignedBox3f box;
   for (const auto& triangle : mesh.triangles) {
     for (const auto index : triangle) box.extend(mesh.vertices[index]);
@@ -62,7 +62,7 @@ void to_object_axes(const std::filesystem::path& file, Mesh& mesh) {
 }
 
 /// Vertices without a face must not count for the object's size.
-void drop_unused_vertices(Mesh& mesh) {
+void drop_unused_vertices(SceneMesh& mesh) {
   constexpr auto kUnused = static_cast<std::uint32_t>(-1);
   std::vector<std::uint32_t> renumbered(mesh.vertices.size(), kUnused);
   std::vector<Eigen::Vector3f> used;
@@ -80,13 +80,13 @@ void drop_unused_vertices(Mesh& mesh) {
 
 }  // namespace
 
-Mesh read_mesh(const std::filesystem::path& file) {
+SceneMesh read_mesh(const std::filesystem::path& file) {
   const std::string bytes = read_bytes(file);
   const bool is_ply = bytes.compare(0, 3, "ply") == 0;
   if (!is_ply && file.extension() != ".obj" && file.extension() != ".OBJ") {
     throw InputError(file.string(), "is neither PLY nor OBJ", "convert the mesh to one of these");
   }
-  Mesh mesh = is_ply ? parse_ply(bytes, file) : parse_obj(bytes, file);
+  SceneMesh mesh = is_ply ? parse_ply(bytes, file) : parse_obj(bytes, file);
   check(file, mesh);
   drop_unused_vertices(mesh);
   to_object_axes(file, mesh);

@@ -14,6 +14,6 @@ namespace rakelight {
 /// the viewer, and turns it to object coordinates (y down, z away). Normals are the smooth ones of the triangles;
 /// texture coordinates are x and y, half size 1. Counts are checked against the file's size before allocation.
 /// @throws InputError naming the file, the fault and the cure.
-Mesh read_mesh(const std::filesystem::path& file);
+SceneMesh read_mesh(const std::filesystem::path& file);
 
 }  // namespace rakelight

@@ -32,7 +32,7 @@ class ObjParser {
     if (keyword == "f") read_face(line);
   }
 
-  Mesh take() { return std::move(mesh_); }
+  SceneMesh take() { return std::move(mesh_); }
 
  private:
   [[noreturn]] void fail(const std::string& fault) const {
@@ -74,13 +74,13 @@ class ObjParser {
   }
 
   const std::filesystem::path& file_;
-  Mesh mesh_;
+  SceneMesh mesh_;
   std::size_t line_number_ = 0;
 };
 
 }  // namespace
 
-Mesh parse_obj(const std::string& bytes, const std::filesystem::path& file) {
+SceneMesh parse_obj(const std::string& bytes, const std::filesystem::path& file) {
   ObjParser parser(file);
   std::string_view rest = bytes;
   while (!rest.empty()) {

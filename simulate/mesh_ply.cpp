@@ -203,7 +203,7 @@ class Body {
     }
   }
 
-  Mesh take() { return std::move(mesh_); }
+  SceneMesh take() { return std::move(mesh_); }
 
  private:
   /// A count that the rest of the file cannot hold is refused before anything is allocated for it.
@@ -266,12 +266,12 @@ class Body {
 
   Values values_;
   const std::filesystem::path& file_;
-  Mesh mesh_;
+  SceneMesh mesh_;
 };
 
 }  // namespace
 
-Mesh parse_ply(const std::string& bytes, const std::filesystem::path& file) {
+SceneMesh parse_ply(const std::string& bytes, const std::filesystem::path& file) {
   const Header header = parse_header(bytes, file);
   Body body(bytes, header, file);
   for (const Element& element : header.elements) body.read(element);

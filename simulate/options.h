@@ -28,7 +28,7 @@ struct SceneOptions {
 };
 
 /// The rig. Lamps are aimed at the object's centre.
-struct LampOptions {
+struct RigOptions {
   int count = 16;    ///< white lamps lit in turn
   bool rgb = false;  ///< one more image first, under a red, a green and a blue lamp at once
   LampLayout layout = LampLayout::ring;
@@ -72,7 +72,7 @@ struct DepthSensorOptions {
 
 struct SimulateOptions {
   SceneOptions scene;
-  LampOptions lamps;
+  RigOptions lamps;
   ImageOptions image;
   DepthSensorOptions depth;
   int width = 640, height = 480;  ///< depth grid

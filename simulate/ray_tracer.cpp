@@ -35,20 +35,20 @@ RTCRay make_ray(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
 }  // namespace
 
 struct RayTracer::Scene {
-  Mesh mesh;
+  SceneMesh mesh;
   Device device;
   EmbreeScene scene;
   float lift = 0;  ///< shadow rays start this far off the facet, metres
 };
 
-RayTracer::RayTracer(Mesh mesh) : scene_(std::make_unique<Scene>()) {
+RayTracer::RayTracer(SceneMesh mesh) : scene_(std::make_unique<Scene>()) {
   scene_->mesh = std::move(mesh);
   // One build thread: the tree, and with it every tie between facets, is the same on any machine.
   scene_->device.reset(rtcNewDevice(nullptr));
   if (!scene_->device) throw std::runtime_error("ray casting: Embree did not start");
   scene_->scene.reset(rtcNewScene(scene_->device.get()));
   rtcSetSceneFlags(scene_->scene.get(), RTC_SCENE_FLAG_ROBUST);
-  const Mesh& m = scene_->mesh;
+  const SceneMesh& m = scene_->mesh;
   RTCGeometry geometry = rtcNewGeometry(scene_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), m.vertices.size()));
@@ -82,7 +82,7 @@ std::optional<SurfaceHit> RayTracer::trace(const Eigen::Vector3f& origin,
   rtcIntersect1(scene_->scene.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
-  const Mesh& m = scene_->mesh;
+  const SceneMesh& m = scene_->mesh;
   const auto& [a, b, c] = m.triangles[query.hit.primID];
   const float u = query.hit.u, v = query.hit.v, w = 1 - u - v;
   SurfaceHit hit;

@@ -30,7 +30,7 @@ struct ShadowRay {
 class RayTracer {
  public:
   /// @throws std::runtime_error when Embree cannot build the scene.
-  explicit RayTracer(Mesh mesh);
+  explicit RayTracer(SceneMesh mesh);
   ~RayTracer();
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;

@@ -20,12 +20,12 @@ Eigen::Matrix3f rotation(const Eigen::Vector3d& yaw_pitch_roll_deg) {
   return q.toRotationMatrix().cast<float>();
 }
 
-void rotate(Mesh& mesh, const Eigen::Matrix3f& matrix) {
+void rotate(SceneMesh& mesh, const Eigen::Matrix3f& matrix) {
   for (auto& v : mesh.vertices) v = matrix * v;
   for (auto& n : mesh.normals) n = matrix * n;
 }
 
-void center_on_origin(Mesh& mesh) {
+void center_on_origin(SceneMesh& mesh) {
   Eigen::AlignedBox3f box;
   for (const auto& v : mesh.vertices) box.extend(v);
   for (auto& v : mesh.vertices) v -= box.center();
@@ -33,7 +33,7 @@ void center_on_origin(Mesh& mesh) {
 
 /// Largest scale s at which every vertex s p + (0, 0, distance) projects into the central `fill` of the view and
 /// stays beyond a fifth of the distance: f s |x| <= m (D + s z) bounds s by m D / (f |x| - m z).
-double fitting_scale(const Mesh& mesh, const SceneOptions& options, const Camera& camera) {
+double fitting_scale(const SceneMesh& mesh, const SceneOptions& options, const Camera& camera) {
   const double half_width = options.fill * camera.width / 2, half_height = options.fill * camera.height / 2;
   double scale = std::numeric_limits<double>::max();
   const auto bound = [&scale](double limit, double slope) {
@@ -62,7 +62,7 @@ Eigen::Vector3d own_rotation_deg(SceneKind kind) {
   }
 }
 
-Mesh object_mesh(const SceneOptions& options, int detail) {
+SceneMesh object_mesh(const SceneOptions& options, int detail) {
   switch (options.kind) {
     case SceneKind::vase:
       return make_vase(detail);
@@ -82,7 +82,7 @@ Mesh object_mesh(const SceneOptions& options, int detail) {
 
 }  // namespace
 
-void place(Mesh& mesh, const SceneOptions& options, const Camera& camera) {
+void place(SceneMesh& mesh, const SceneOptions& options, const Camera& camera) {
   rotate(mesh, rotation(options.rotation_deg) * rotation(own_rotation_deg(options.kind)));
   center_on_origin(mesh);
   const auto scale = static_cast<float>(fitting_scale(mesh, options, camera));
@@ -90,10 +90,10 @@ void place(Mesh& mesh, const SceneOptions& options, const Camera& camera) {
   for (auto& v : mesh.vertices) v = scale * v + center;
 }
 
-Mesh make_scene(const SceneOptions& options, const Camera& camera) {
+SceneMesh make_scene(const SceneOptions& options, const Camera& camera) {
   // Facets of about half a pixel; beyond 700 pixels smooth normals carry the rest.
   constexpr int kMaxDetail = 700;
-  Mesh mesh = object_mesh(options, std::min(camera.height, kMaxDetail));
+  SceneMesh mesh = object_mesh(options, std::min(camera.height, kMaxDetail));
   place(mesh, options, camera);
   return mesh;
 }

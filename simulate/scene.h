@@ -11,9 +11,9 @@ namespace rakelight {
 
 /// Turns, centres and scales a mesh so that it stays within `fill` of the view and its bounding box is centred on the
 /// optical axis at `distance_m`. In: object coordinates; out: camera coordinates, metres.
-void place(Mesh& mesh, const SceneOptions& options, const Camera& camera);
+void place(SceneMesh& mesh, const SceneOptions& options, const Camera& camera);
 
 /// Builds or reads the scene's mesh and places it. @throws InputError for a mesh file that cannot be used.
-Mesh make_scene(const SceneOptions& options, const Camera& camera);
+SceneMesh make_scene(const SceneOptions& options, const Camera& camera);
 
 }  // namespace rakelight

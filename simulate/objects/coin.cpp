@@ -225,11 +225,11 @@ SurfacePoint edge_point(double angle, double turn) {
 
 }  // namespace
 
-Mesh make_coin(int detail) {
+SceneMesh make_coin(int detail) {
   const cv::Mat1f relief = draw_relief();
   const GridShape shape{4 * detail, 3 * detail / 2, true};
   constexpr double kFaceShare = 0.96;  // of the rows; the rest is the edge
-  Mesh mesh = parametric_grid(shape, [&](double s, double t) {
+  SceneMesh mesh = parametric_grid(shape, [&](double s, double t) {
     const double angle = 2 * M_PI * s;
     if (t > kFaceShare) return edge_point(angle, (t - kFaceShare) / (1 - kFaceShare));
     const double radius = kFaceRadius * t / kFaceShare;

@@ -46,7 +46,7 @@ double crease(double s, double t) {
 
 }  // namespace
 
-Mesh make_drape(int detail) {
+SceneMesh make_drape(int detail) {
   const ClothOptions options;
   const std::vector<Eigen::Vector3f> nodes = fallen_cloth(options);
   const GridShape shape{9 * detail / 4, 9 * detail / 4, false};

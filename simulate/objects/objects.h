@@ -10,18 +10,18 @@
 namespace rakelight {
 
 /// A thrown vase: mouldings, gadroons, a fluted neck and an embossed band of rosettes and leaves.
-Mesh make_vase(int detail);
+SceneMesh make_vase(int detail);
 
 /// A medal: a profile head in low relief, lettering, a beaded and a raised rim, a reeded edge.
-Mesh make_coin(int detail);
+SceneMesh make_coin(int detail);
 
 /// A square cloth that fell on a ball and hangs in folds that hide one another.
-Mesh make_drape(int detail);
+SceneMesh make_drape(int detail);
 
 /// Unit sphere about the origin.
-Mesh make_sphere(int detail);
+SceneMesh make_sphere(int detail);
 
 /// A 2 x 2 square through the origin that faces the camera.
-Mesh make_plane();
+SceneMesh make_plane();
 
 }  // namespace rakelight

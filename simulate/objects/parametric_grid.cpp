@@ -21,7 +21,8 @@ int column_beside(const GridShape& shape, int column, int step) {
   return step < 0 ? shape.columns - 2 : 1;  // the first and the last column coincide
 }
 
-void sample(const GridShape& shape, const std::function<SurfacePoint(double, double)>& surface, Mesh& mesh) {
+void sample(const GridShape& shape, const std::function<SurfacePoint(double, double)>& surface,
+            SceneMesh& mesh) {
   cv::parallel_for_({0, shape.rows}, [&](const cv::Range& rows) {
     for (int row = rows.start; row < rows.end; ++row) {
       for (int column = 0; column < shape.columns; ++column) {
@@ -35,7 +36,7 @@ void sample(const GridShape& shape, const std::function<SurfacePoint(double, dou
 }
 
 /// Normal by differences across the neighbours; a pole, where they vanish, takes it from the next row.
-Eigen::Vector3f grid_normal(const GridShape& shape, const Mesh& mesh, int column, int row) {
+Eigen::Vector3f grid_normal(const GridShape& shape, const SceneMesh& mesh, int column, int row) {
   for (const int at : {row, row + 1 < shape.rows ? row + 1 : row - 1}) {
     const auto& left = mesh.vertices[index_of(shape, column_beside(shape, column, -1), at)];
     const auto& right = mesh.vertices[index_of(shape, column_beside(shape, column, 1), at)];
@@ -51,8 +52,9 @@ Eigen::Vector3f grid_normal(const GridShape& shape, const Mesh& mesh, int column
 
 }  // namespace
 
-Mesh parametric_grid(const GridShape& shape, const std::function<SurfacePoint(double, double)>& surface) {
-  Mesh mesh;
+SceneMesh parametric_grid(const GridShape& shape,
+                          const std::function<SurfacePoint(double, double)>& surface) {
+  SceneMesh mesh;
   const std::size_t count = static_cast<std::size_t>(shape.columns) * static_cast<std::size_t>(shape.rows);
   mesh.vertices.resize(count);
   mesh.texture.resize(count);
@@ -77,7 +79,7 @@ Mesh parametric_grid(const GridShape& shape, const std::function<SurfacePoint(do
   return mesh;
 }
 
-void append(Mesh& mesh, const Mesh& other) {
+void append(SceneMesh& mesh, const SceneMesh& other) {
   const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
   mesh.normals.insert(mesh.normals.end(), other.normals.begin(), other.normals.end());

@@ -22,9 +22,10 @@ struct GridShape {
 
 /// Samples `surface(s, t)`, s and t in [0, 1], and takes normals from the neighbouring samples.
 /// `surface` is called from several threads.
-Mesh parametric_grid(const GridShape& shape, const std::function<SurfacePoint(double s, double t)>& surface);
+SceneMesh parametric_grid(const GridShape& shape,
+                          const std::function<SurfacePoint(double s, double t)>& surface);
 
 /// Puts the second mesh beside the first.
-void append(Mesh& mesh, const Mesh& other);
+void append(SceneMesh& mesh, const SceneMesh& other);
 
 }  // namespace rakelight

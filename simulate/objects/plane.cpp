@@ -5,7 +5,7 @@
 
 namespace rakelight {
 
-Mesh make_plane() {
+SceneMesh make_plane() {
   return parametric_grid({2, 2, false}, [](double s, double t) {
     const Eigen::Vector2d xy{2 * s - 1, 2 * t - 1};
     return SurfacePoint{{xy.x(), xy.y(), 0}, xy};

@@ -7,9 +7,9 @@
 
 namespace rakelight {
 
-Mesh make_sphere(int detail) {
+SceneMesh make_sphere(int detail) {
   const GridShape shape{3 * detail, 3 * detail / 2, true};
-  Mesh mesh = parametric_grid(shape, [](double s, double t) {
+  SceneMesh mesh = parametric_grid(shape, [](double s, double t) {
     const double longitude = 2 * M_PI * s;
     const double latitude = M_PI * (t - 0.5);
     const Eigen::Vector3d p{std::cos(latitude) * std::sin(longitude), std::sin(latitude),

@@ -95,7 +95,7 @@ double relief(double angle, double y) {
 
 }  // namespace
 
-Mesh make_vase(int detail) {
+SceneMesh make_vase(int detail) {
   const GridShape shape{2 * detail, 5 * detail / 2, true};
   return parametric_grid(shape, [](double s, double t) {
     const double angle = 2 * M_PI * s;

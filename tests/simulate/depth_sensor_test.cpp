@@ -27,7 +27,7 @@ SimulateOptions exact() {
 
 /// A wall through (0, 0, 1), turned about the vertical.
 RayTracer wall(double yaw_deg = 0) {
-  Mesh mesh = make_plane();
+  SceneMesh mesh = make_plane();
   const Eigen::Matrix3f turn =
       Eigen::AngleAxisf(static_cast<float>(yaw_deg * M_PI / 180), Eigen::Vector3f::UnitY())
           .toRotationMatrix();
@@ -115,9 +115,9 @@ TEST(DepthSensor, AGrazedWallIsNotRead) {
 
 /// A square of 0.2 m before a wall.
 RayTracer square_before_wall() {
-  Mesh mesh = make_plane();
+  SceneMesh mesh = make_plane();
   for (auto& v : mesh.vertices) v = 2 * v + Eigen::Vector3f(0, 0, 1);
-  Mesh square = make_plane();
+  SceneMesh square = make_plane();
   for (auto& v : square.vertices) v = 0.1f * v + Eigen::Vector3f(0, 0, 0.7f);
   const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), square.vertices.begin(), square.vertices.end());

@@ -25,7 +25,9 @@ class MeshFile : public testing::Test {
     std::ofstream(folder_.path() / name, std::ios::binary) << bytes;
     return folder_.path() / name;
   }
-  Mesh read(const std::string& name, const std::string& bytes) const { return read_mesh(write(name, bytes)); }
+  SceneMesh read(const std::string& name, const std::string& bytes) const {
+    return read_mesh(write(name, bytes));
+  }
   std::string refusal(const std::string& name, const std::string& bytes) const {
     const auto file = write(name, bytes);
     const std::string message = message_of<InputError>([&] { read_mesh(file); });
@@ -67,7 +69,7 @@ std::string binary_strips() {
   return bytes;
 }
 
-void expect_tent(const Mesh& mesh) {
+void expect_tent(const SceneMesh& mesh) {
   ASSERT_EQ(mesh.vertices.size(), 4U);
   ASSERT_EQ(mesh.triangles.size(), 2U);
   ASSERT_EQ(mesh.normals.size(), 4U);
@@ -165,7 +167,7 @@ TEST_F(MeshFile, WhatIsNoSurfaceIsRefused) {
 
 TEST(ScannedMeshes, AreReadWhole) {
   RAKELIGHT_NEED_SHARED_DATA(meshes, "meshes");
-  const Mesh igea = read_mesh(meshes / "igea.ply");
+  const SceneMesh igea = read_mesh(meshes / "igea.ply");
   EXPECT_EQ(igea.vertices.size(), 134345U);
   EXPECT_EQ(igea.triangles.size(), 268686U);
   EXPECT_EQ(read_mesh(meshes / "stanford-bunny.obj").triangles.size(), 69451U);

@@ -21,15 +21,15 @@ LampTruth far_lamp(const Eigen::Vector3d& direction) {
   return lamp;
 }
 
-Mesh shifted(Mesh mesh, const Eigen::Vector3f& by, float scale) {
+SceneMesh shifted(SceneMesh mesh, const Eigen::Vector3f& by, float scale) {
   for (auto& v : mesh.vertices) v = scale * v + by;
   return mesh;
 }
 
 /// A wall at z = 1 and, before it at z = 0.8, a small square.
-Mesh wall_and_screen() {
-  Mesh mesh = shifted(make_plane(), {0, 0, 1}, 1.0f);
-  const Mesh screen = shifted(make_plane(), {0, 0, 0.8f}, 0.05f);
+SceneMesh wall_and_screen() {
+  SceneMesh mesh = shifted(make_plane(), {0, 0, 1}, 1.0f);
+  const SceneMesh screen = shifted(make_plane(), {0, 0, 0.8f}, 0.05f);
   const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), screen.vertices.begin(), screen.vertices.end());
   mesh.normals.insert(mesh.normals.end(), screen.normals.begin(), screen.normals.end());
