@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <string_view>
 
 #include "stack/checked_file.h"
 #include "stack/errors.h"
@@ -36,18 +35,20 @@ std::vector<double> parse_row(std::string_view line, const std::string& where) {
 
 }  // namespace
 
-std::vector<std::vector<double>> read_number_rows(const std::filesystem::path& file) {
-  const Bytes bytes = read_file(file, kMaxTextBytes);
-  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+std::vector<std::vector<double>> parse_number_rows(std::string_view text, const std::string& file) {
   std::vector<std::vector<double>> rows;
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t length = std::min(text.find('\n'), text.size());
-    std::vector<double> row =
-        parse_row(text.substr(0, length), file.string() + " line " + std::to_string(line));
+    std::vector<double> row = parse_row(text.substr(0, length), file + " line " + std::to_string(line));
     if (!row.empty()) rows.push_back(std::move(row));
     text.remove_prefix(std::min(length + 1, text.size()));
   }
   return rows;
+}
+
+std::vector<std::vector<double>> read_number_rows(const std::filesystem::path& file) {
+  const Bytes bytes = read_file(file, kMaxTextBytes);
+  return parse_number_rows({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
 }  // namespace rakelight
