@@ -156,6 +156,8 @@ void write_stack(const LightStack& stack, const fs::path& folder, const std::opt
   out.commit();
 }
 
-void check_stack_folder(const fs::path& folder) { const AtomicFolder locked_for_a_moment(folder, stack_kind()); }
+void check_stack_folder(const fs::path& folder) {
+  const AtomicFolder locked_for_a_moment(folder, stack_kind());
+}
 
 }  // namespace rakelight
