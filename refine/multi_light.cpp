@@ -28,19 +28,24 @@ SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& op
   return state;
 }
 
+/// Outer iterations in which the start's flaws still dominate every residual: measured on them, noise would tie the depth
+/// to the sensor, and edge weights would take the sensor's steps for edges and tear the surface there.
+constexpr int kWarmUp = 5;
+
 /// lambda_z: as given, or the ratio of the measured error variances (refine/steps/noise.h).
 class SensorWeight {
  public:
-  SensorWeight(const RefineProblem& problem, const RefineOptions& options, double image_floor)
-      : problem_(problem), options_(options.depth), image_floor_(image_floor) {}
+  SensorWeight(const RefineProblem& problem, const RefineOptions& options, double model_error)
+      : problem_(problem), options_(options.depth), model_error_(model_error) {}
 
   double operator()(const SurfaceState& state, int iteration, MeasuredNoise& noise) const {
     if (options_.sensor_weight > 0) return options_.sensor_weight;
-    noise = measure_noise(problem_.grid, problem_.images, state, problem_.prior, problem_.scale);
-    noise.image = std::max(noise.image, image_floor_);
-    // The start is the smoothed reading itself, so a first look at their difference would flatter the sensor.
-    const double least = (iteration <= 3 ? 3 : 2) * problem_.depth_noise;
-    noise.depth = std::max(noise.depth, least);
+    noise = {model_error_, 3 * problem_.depth_noise};
+    if (iteration > kWarmUp) {
+      noise = measure_noise(problem_.grid, problem_.images, state, problem_.prior, problem_.scale);
+      noise.image = std::max(noise.image, model_error_);
+      noise.depth = std::max(noise.depth, 2 * problem_.depth_noise);
+    }
     const double ratio = noise.image / noise.depth;
     return options_.noise_ratio * ratio * ratio;
   }
@@ -48,7 +53,7 @@ class SensorWeight {
  private:
   const RefineProblem& problem_;
   const DepthOptions& options_;
-  double image_floor_;
+  double model_error_;
 };
 
 double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
@@ -110,7 +115,8 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
 
     prior.cell_weight = sensor_weight(state, t, noise) * problem.prior.cell_weight;
     const auto tensors = accumulate_tensors(images, state);
-    const auto weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
+    const double edge_weight = t > kWarmUp ? options.trust.edge_weight : 0;
+    const auto weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
     const DepthProblem depth{problem.grid, problem.corners, tensors, weights, prior};
     const Eigen::VectorXd before = state.zeta;
     const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (32), (34)

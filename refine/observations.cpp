@@ -60,14 +60,18 @@ const Light& light_of(const LightStack& stack, const Frame& frame) {
                    "list it under lights");
 }
 
-void append_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat1b& clipped, Observations& out) {
+void append_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& clipped, Observations& out) {
   const size_t start = out.radiance.size();
   const size_t count = static_cast<size_t>(out.pixels);
   out.radiance.resize(start + 3 * count);
+  out.usable.resize(start + 3 * count);
   for (size_t p = 0; p < count; ++p) {
     const cv::Vec3f& value = color(grid.pixels[p]);
-    for (int c = 0; c < 3; ++c) out.radiance[start + static_cast<size_t>(c) * count + p] = value[c];
-    out.usable.push_back(clipped(grid.pixels[p]) == 0);
+    for (int c = 0; c < 3; ++c) {
+      const size_t at = start + static_cast<size_t>(c) * count + p;
+      out.radiance[at] = value[c];
+      out.usable[at] = clipped(grid.pixels[p])[c] == 0;
+    }
   }
 }
 
@@ -82,7 +86,9 @@ Observations observe(const LightStack& stack, const PixelGrid& grid) {
     if (!frame.light || frame.color.empty()) continue;
     cv::Mat3f color = linear_color(stack, frame);
     if (!ambient.empty()) color -= ambient;
-    append_image(grid, sample(color), sample(saturated(frame)), out);
+    cv::Mat3b clipped = saturated_channels(frame);
+    if (!stack.color_crosstalk.isIdentity()) cv::merge(std::vector<cv::Mat>(3, saturated(frame)), clipped);
+    append_image(grid, sample(color), sample(clipped), out);
     const Light& light = light_of(stack, frame);
     out.light_ids.push_back(light.id);
     out.colored_lamps.push_back(light.color == LampColor::rgb);

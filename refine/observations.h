@@ -18,7 +18,7 @@ struct Observations {
   int pixels = 0;
   int images = 0;
   std::vector<float> radiance;        ///< [image][channel][pixel]
-  std::vector<unsigned char> usable;  ///< [image][pixel]: 0 where a channel is clipped or has no sample
+  std::vector<unsigned char> usable;  ///< as radiance: 1, or 0 where the channel is clipped or has no sample
   std::vector<std::string> light_ids; ///< [image]
   std::vector<int> frame_index;       ///< [image]
   std::vector<bool> colored_lamps;    ///< [image] red, green and blue lamps at once
@@ -27,8 +27,14 @@ struct Observations {
   const float* channel(int image, int c) const {
     return radiance.data() + (static_cast<size_t>(image) * 3 + static_cast<size_t>(c)) * static_cast<size_t>(pixels);
   }
-  const unsigned char* usable_in(int image) const {
-    return usable.data() + static_cast<size_t>(image) * static_cast<size_t>(pixels);
+  const unsigned char* usable_in(int image, int c) const {
+    return usable.data() + (static_cast<size_t>(image) * 3 + static_cast<size_t>(c)) * static_cast<size_t>(pixels);
+  }
+
+  /// 1 or 0 a channel: whether this sample can be used.
+  Eigen::Vector3f usable_channels(int image, int pixel) const {
+    return {static_cast<float>(usable_in(image, 0)[pixel]), static_cast<float>(usable_in(image, 1)[pixel]),
+            static_cast<float>(usable_in(image, 2)[pixel])};
   }
 };
 

@@ -42,20 +42,6 @@ void undo_crosstalk(const Eigen::Matrix3d& crosstalk, cv::Mat3f& linear) {
   }
 }
 
-template <typename Code>
-cv::Mat1b clipped(const cv::Mat& color, int threshold) {
-  cv::Mat1b result(color.size());
-  for (int y = 0; y < color.rows; ++y) {
-    const Code* from = color.ptr<Code>(y);
-    for (int x = 0; x < color.cols; ++x) {
-      const Code* rgb = from + 3 * x;
-      const bool top = rgb[0] >= threshold || rgb[1] >= threshold || rgb[2] >= threshold;
-      result(y, x) = top ? 255 : 0;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 ColorResponse parse_color_response(const std::string& text) {
@@ -111,10 +97,18 @@ cv::Mat3f linear_color(const LightStack& stack, const Frame& frame) {
   return linear;
 }
 
-cv::Mat1b saturated(const Frame& frame) {
+cv::Mat3b saturated_channels(const Frame& frame) {
   if (frame.color.empty()) return {};
-  return frame.color.depth() == CV_16U ? clipped<std::uint16_t>(frame.color, 65279)
-                                       : clipped<std::uint8_t>(frame.color, 254);
+  const double top = frame.color.depth() == CV_16U ? 65279 : 254;
+  return cv::Mat(frame.color >= cv::Scalar::all(top));
+}
+
+cv::Mat1b saturated(const Frame& frame) {
+  const cv::Mat3b channels = saturated_channels(frame);
+  if (channels.empty()) return {};
+  cv::Mat1b any;
+  cv::reduce(channels.reshape(1, static_cast<int>(channels.total())), any, 1, cv::REDUCE_MAX);
+  return any.reshape(1, channels.rows);
 }
 
 }  // namespace rakelight

@@ -21,7 +21,10 @@ double encode(const ColorResponse& response, double radiance);
 /// The frame's colour as linear RGB in [0, 1], height x width, crosstalk undone (which may leave [0, 1] slightly).
 cv::Mat3f linear_color(const LightStack& stack, const Frame& frame);
 
-/// 255 where any channel is clipped at the top of its encoding (>= 254 of 255, or >= 65279 of 65535).
+/// 255 in each channel that is clipped at the top of its encoding (>= 254 of 255, or >= 65279 of 65535).
+cv::Mat3b saturated_channels(const Frame& frame);
+
+/// 255 where any channel is.
 cv::Mat1b saturated(const Frame& frame);
 
 }  // namespace rakelight

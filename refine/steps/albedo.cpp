@@ -18,8 +18,9 @@ Eigen::Matrix3Xf estimate_albedo(const Observations& images, const SurfaceState&
         const LocalLight light = light_at(lamp, state.points.col(p), state.scene);
         const Eigen::Vector3f S = shading(light, state.normals.col(p), state.attached_shadows);
         const Eigen::Vector3f I(images.channel(i, 0)[p], images.channel(i, 1)[p], images.channel(i, 2)[p]);
-        numerator.col(p - begin) += weight[p] * S.cwiseProduct(I);
-        denominator.col(p - begin) += weight[p] * S.cwiseAbs2();
+        const Eigen::Vector3f w = weight[p] * images.usable_channels(i, p);
+        numerator.col(p - begin) += w.cwiseProduct(S).cwiseProduct(I);
+        denominator.col(p - begin) += w.cwiseProduct(S.cwiseAbs2());
       }
     }
     for (int p = begin; p < end; ++p) {

@@ -78,6 +78,7 @@ std::vector<PhotometricTensor> accumulate_tensors(const Observations& images, co
         const LocalLight light = light_at(lamp, state.points.col(p), state.scene);
         PhotometricTensor& sum = tensors[static_cast<size_t>(p)];
         for (int c = 0; c < 3; ++c) {
+          if (!images.usable_in(i, c)[p]) continue;
           const float rho = state.albedo(c, p);
           const Eigen::Vector3f l = rho * light.l.row(c).transpose();
           const float rest = images.channel(i, c)[p] - rho * light.phi[c];

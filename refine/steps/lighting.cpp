@@ -16,8 +16,11 @@ struct LightEquations {
 };
 
 /// Sums run in float over short runs of pixels, in double over the runs, in a fixed order.
-LightEquations light_equations(const float* radiance, const float* weight, const SurfaceState& state,
-                               const Lamp& lamp, int channel, bool clamp) {
+LightEquations light_equations(const Observations& images, int image, int channel, const SurfaceState& state,
+                               const Lamp& lamp, bool clamp) {
+  const float* radiance = images.channel(image, channel);
+  const unsigned char* usable = images.usable_in(image, channel);
+  const float* weight = state.weight.data() + static_cast<size_t>(image) * static_cast<size_t>(images.pixels);
   constexpr Eigen::Index kRun = 256;
   LightEquations sum;
   const Eigen::Vector3f l = lamp.l.row(channel).transpose();
@@ -29,7 +32,8 @@ LightEquations light_equations(const float* radiance, const float* weight, const
     for (Eigen::Index p = begin; p < end; ++p) {
       const auto n = state.normals.col(p);
       const float rho = state.albedo(channel, p);
-      const float w = weight[p] * rho * rho, wI = weight[p] * rho * radiance[p];
+      const float trust = weight[p] * static_cast<float>(usable[p]);
+      const float w = trust * rho * rho, wI = trust * rho * radiance[p];
       ones += w;
       I1 += wI;
       const float lit = clamp && l.dot(n) <= 0.0f ? 0.0f : 1.0f;
@@ -57,10 +61,9 @@ std::vector<Lamp> estimate_far_lamps(const Observations& images, const SurfaceSt
       const Lamp old = first ? Lamp{} : state.lamps[static_cast<size_t>(i)];
       Lamp& lamp = lamps[static_cast<size_t>(i)] = old;
       lamp.near = false;
-      const float* weight = state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
       for (int c = 0; c < 3; ++c) {
         const bool clamp = state.attached_shadows && !first;
-        const LightEquations sum = light_equations(images.channel(i, c), weight, state, old, c, clamp);
+        const LightEquations sum = light_equations(images, i, c, state, old, clamp);
         const double ridge = 1e-9 * sum.A.trace() + 1e-12;
         const auto factor = (sum.A + ridge * Eigen::Matrix4d::Identity()).eval().ldlt();
         const Eigen::Vector4d s = factor.solve(sum.b);

@@ -36,6 +36,7 @@ LampFit fit_equations(const Observations& images, const SurfaceState& state, int
     const NearLampRow row = near_lamp_row(lamp, tangents, state.points.col(p) - state.scene.center,
                                           state.normals.col(p), state.scene.lobe_exponent);
     for (int c = 0; c < 3; ++c) {
+      if (!images.usable_in(image, c)[p]) continue;
       const float rho = state.albedo(c, p);
       const double r = static_cast<double>(images.channel(image, c)[p] - rho * row.shading[c]);
       const double w = static_cast<double>(weight[p]);

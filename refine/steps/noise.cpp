@@ -30,6 +30,7 @@ double image_noise(const PixelGrid& grid, const Observations& images, const Surf
     const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
     const float* weight = state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
     for (int p = 0; p < images.pixels; ++p) {
+      if (images.usable_channels(i, p).minCoeff() == 0.0f) continue;
       const Eigen::Vector3f S =
           shading(light_at(lamp, state.points.col(p), state.scene), state.normals.col(p), state.attached_shadows);
       const float modelled = state.albedo.col(p).dot(S);

@@ -24,9 +24,9 @@ double median_of_samples(const Observations& images, const Value& value) {
   std::vector<float> sizes;
   for (int i = 0; i < images.images; ++i) {
     for (int p = 0; p < images.pixels; p += step) {
-      if (!images.usable_in(i)[p]) continue;
       const Eigen::Vector3f v = value(i, p);
-      for (int c = 0; c < 3; ++c) sizes.push_back(std::abs(v[c]));
+      for (int c = 0; c < 3; ++c)
+        if (images.usable_in(i, c)[p]) sizes.push_back(std::abs(v[c]));
     }
   }
   if (sizes.empty()) return 0;
@@ -48,13 +48,16 @@ double median_radiance(const Observations& images) {
 }
 
 std::vector<float> cauchy_weights(const Observations& images, const SurfaceState& state, double scale) {
-  std::vector<float> weight(images.usable.size());
-  const float inverse = static_cast<float>(1.0 / (3.0 * scale * scale));
+  std::vector<float> weight(images.usable.size() / 3);
+  const float inverse = static_cast<float>(1.0 / (scale * scale));
   for_each_block(images.pixels, [&](int begin, int end) {
     for (int i = 0; i < images.images; ++i) {
       float* w = weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
       for (int p = begin; p < end; ++p) {
-        w[p] = images.usable_in(i)[p] ? 1.0f / (1.0f + residual(images, state, i, p).squaredNorm() * inverse) : 0.0f;
+        const Eigen::Vector3f usable = images.usable_channels(i, p);
+        const float channels = usable.sum();
+        const float r2 = usable.dot(residual(images, state, i, p).cwiseAbs2());
+        w[p] = channels > 0 ? 1.0f / (1.0f + r2 * inverse / channels) : 0.0f;
       }
     }
   });
@@ -62,7 +65,11 @@ std::vector<float> cauchy_weights(const Observations& images, const SurfaceState
 }
 
 std::vector<float> usable_weights(const Observations& images) {
-  return {images.usable.begin(), images.usable.end()};
+  std::vector<float> weight;
+  weight.reserve(images.usable.size() / 3);
+  for (int i = 0; i < images.images; ++i)
+    for (int p = 0; p < images.pixels; ++p) weight.push_back(images.usable_channels(i, p).maxCoeff());
+  return weight;
 }
 
 }  // namespace rakelight

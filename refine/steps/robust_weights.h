@@ -16,11 +16,11 @@ double residual_scale(const Observations& images, const SurfaceState& state);
 /// Median over usable samples of the radiance: the brightness that errors are held against.
 double median_radiance(const Observations& images);
 
-/// Weights of all samples; r^2 is the mean over the channels. 0 where a sample is not usable.
+/// Weights of all samples; r^2 is the mean over the usable channels. 0 where none is.
 /// @param scale k sigma above
 std::vector<float> cauchy_weights(const Observations& images, const SurfaceState& state, double scale);
 
-/// 1 where usable, else 0.
+/// 1 where a channel is usable, else 0.
 std::vector<float> usable_weights(const Observations& images);
 
 }  // namespace rakelight
