@@ -30,7 +30,14 @@ SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& op
 
 /// Outer iterations in which the start's flaws still dominate every residual: measured on them, noise would tie the depth
 /// to the sensor, and edge weights would take the sensor's steps for edges and tear the surface there.
-constexpr int kWarmUp = 5;
+constexpr int kWarmUp = 8;
+
+/// Factor on the Cauchy scale: wide at first, tight at the end. Judged on the start's normals, samples would be dropped
+/// for good on one side of a shadow and kept on the other, and the surface would tear between them.
+double cauchy_annealing(int iteration) {
+  constexpr double kFirst = 4;
+  return 1 + (kFirst - 1) * std::max(0, kWarmUp - iteration) / kWarmUp;
+}
 
 /// lambda_z: as given, or the ratio of the measured error variances (refine/steps/noise.h).
 class SensorWeight {
@@ -111,7 +118,8 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     normalize_albedo(state);
     report.residual_scale = std::max(residual_scale(images, state), model_error);
     if (options.trust.cauchy_scale > 0)
-      state.weight = cauchy_weights(images, state, options.trust.cauchy_scale * report.residual_scale);
+      state.weight = cauchy_weights(
+          images, state, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale);
 
     prior.cell_weight = sensor_weight(state, t, noise) * problem.prior.cell_weight;
     const auto tensors = accumulate_tensors(images, state);

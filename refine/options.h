@@ -69,7 +69,7 @@ struct RefineOptions {
   Preset preset = Preset::robust;
   int scale = 0;            ///< refined grid / depth grid, 1 to 4; 0: as fine as the colour images are
   int max_iterations = 30;  ///< outer iterations
-  int min_iterations = 12;  ///< robust: no stop before the lamp model is chosen and has taken effect
+  int min_iterations = 14;  ///< robust: no stop before the lamp model is chosen and has taken effect
   double tolerance = 0.02;  ///< robust: stop when depth moves less than this share of a depth pixel's noise (rms);
                             ///< paper: epsilon, the relative change of the energy
   int threads = 0;          ///< 0: all; the result does not depend on it
