@@ -15,7 +15,8 @@ namespace rakelight {
 template <class Enum>
 inline constexpr std::array<Enum, 0> kValuesOf{};
 template <>
-inline constexpr std::array kValuesOf<Method>{Method::multi_light};
+inline constexpr std::array kValuesOf<Method>{Method::multi_light, Method::rgb_ratio, Method::fusion_like,
+                                              Method::rgbd_fusion};
 template <>
 inline constexpr std::array kValuesOf<Linearization>{Linearization::gauss_newton, Linearization::fixed_point};
 template <>
@@ -34,6 +35,7 @@ template <class Options, class Visitor>
 void for_each_option(Options& options, Visitor&& visit) {
   visit("method", options.method);
   visit("preset", options.preset);
+  visit("frame", options.frame);
   visit("scale", options.scale);
   visit("max_iterations", options.max_iterations);
   visit("min_iterations", options.min_iterations);
@@ -49,8 +51,14 @@ void for_each_option(Options& options, Visitor&& visit) {
   visit("trust.model_error", options.trust.model_error);
   visit("trust.cauchy_scale", options.trust.cauchy_scale);
   visit("trust.edge_weight", options.trust.edge_weight);
+  visit("albedo.smoothness", options.albedo.smoothness);
+  visit("albedo.edge_sigma", options.albedo.edge_sigma);
+  visit("albedo.edge_floor", options.albedo.edge_floor);
+  visit("albedo.palette_bandwidth", options.albedo.palette_bandwidth);
+  visit("albedo.palette_weight", options.albedo.palette_weight);
   visit("depth.sensor_weight", options.depth.sensor_weight);
   visit("depth.noise_ratio", options.depth.noise_ratio);
+  visit("depth.smoothness", options.depth.smoothness);
   visit("depth.floor", options.depth.floor);
   visit("depth.linearization", options.depth.linearization);
   visit("depth.stencil", options.depth.stencil);

@@ -4,11 +4,27 @@
 
 namespace rakelight {
 
+namespace {
+
+/// Robust defaults of the methods that use one image.
+void single_image_defaults(RefineOptions& options) {
+  options.max_iterations = 12;
+  options.min_iterations = 4;
+  options.trust.attached_shadows = false;
+  options.depth.sensor_weight = 100;
+  options.depth.smoothness = 0.1;
+}
+
+}  // namespace
+
 RefineOptions preset_options(Preset preset, Method method) {
   RefineOptions options;
   options.preset = preset;
   options.method = method;
-  if (preset == Preset::robust) return options;
+  if (preset == Preset::robust) {
+    if (method != Method::multi_light) single_image_defaults(options);
+    return options;
+  }
   options.max_iterations = 20;
   options.min_iterations = 2;
   options.tolerance = 0.01;

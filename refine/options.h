@@ -50,6 +50,15 @@ struct TrustOptions {
   double edge_weight = 10;       ///< a corner's term is divided by 1 + e / (edge_weight median e); 0: off (the paper)
 };
 
+/// The albedo of one image (refine/steps/albedo_smooth.h); methods rgb-ratio, fusion-like and rgbd-fusion.
+struct AlbedoOptions {
+  double smoothness = 1000;        ///< lambda_rho: weight of differences between neighbours
+  double edge_sigma = 0.05;        ///< sigma_I: change between neighbours that begins to count as an edge of the paint
+  double edge_floor = 1e-3;        ///< share of the smoothness that is left across an edge
+  double palette_bandwidth = 0.25; ///< of the object's few colours in log RGB; 0: no palette
+  double palette_weight = 1;       ///< pull to the palette against the pixel's own colour
+};
+
 /// The depth step, Eq. (32) and (34).
 struct DepthOptions {
   /// lambda_z on log z, against intensities in [0, 1] (the paper: 100). 0: from the measured noise of images and depth.
@@ -58,6 +67,7 @@ struct DepthOptions {
   /// blocks (refine/steps/noise.h). Above 1 because errors of the lamp and reflectance model are correlated beyond a
   /// block and over images, while the sensor's are not.
   double noise_ratio = 16;
+  double smoothness = 0;  ///< lambda_l of Eq. (8), lambda_z2 of RGBD-Fusion; 0: no Laplacian (the tables' "ns")
   double floor = 0.5;  ///< weak pull of every refined pixel to the start, on log z (METHODS: super-resolution)
   Linearization linearization = Linearization::gauss_newton;
   Stencil stencil = Stencil::symmetric;
@@ -67,6 +77,7 @@ struct DepthOptions {
 struct RefineOptions {
   Method method = Method::multi_light;
   Preset preset = Preset::robust;
+  int frame = -1;           ///< single-image methods: index of the frame to use; -1: the first that fits
   int scale = 0;            ///< refined grid / depth grid, 1 to 4; 0: as fine as the colour images are
   int max_iterations = 30;  ///< outer iterations
   int min_iterations = 14;  ///< robust: no stop before the lamp model is chosen and has taken effect
@@ -76,6 +87,7 @@ struct RefineOptions {
   PreprocessOptions preprocess;
   LampOptions lamps;
   TrustOptions trust;
+  AlbedoOptions albedo;
   DepthOptions depth;
 };
 

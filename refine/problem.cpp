@@ -93,9 +93,9 @@ RefineProblem make_problem(const LightStack& stack, const RefineOptions& options
   if (paper) {
     problem.corners = make_corners(problem.grid, options.depth.stencil);
   } else {
-    problem.corners = make_corners(problem.grid, options.depth.stencil,
-                                   depth_jumps(problem.grid, problem.prior.start, kRight, problem.depth_noise),
-                                   depth_jumps(problem.grid, problem.prior.start, kDown, problem.depth_noise));
+    problem.cut_right = depth_jumps(problem.grid, problem.prior.start, kRight, problem.depth_noise);
+    problem.cut_down = depth_jumps(problem.grid, problem.prior.start, kDown, problem.depth_noise);
+    problem.corners = make_corners(problem.grid, options.depth.stencil, problem.cut_right, problem.cut_down);
   }
   problem.images = observe(stack, problem.grid);
   return problem;

@@ -6,11 +6,14 @@
 #include <limits>
 #include <opencv2/core/utility.hpp>
 
+#include "refine/fusion_like.h"
 #include "refine/method.h"
 #include "refine/multi_light.h"
 #include "refine/problem.h"
+#include "refine/rgb_ratio.h"
 #include "refine/steps/near_lamps.h"
 #include "refine/steps/noise.h"
+#include "refine/steps/select_image.h"
 #include "stack/check.h"
 #include "stack/errors.h"
 
@@ -96,18 +99,41 @@ RefineResult make_result(const RefineProblem& problem, MethodResult method, cons
   return result;
 }
 
+/// Leaves the problem with the image that a single-image method uses. @return which one that is, or nothing.
+std::string select_images(const LightStack& stack, const RefineOptions& options, RefineProblem& problem) {
+  if (options.method == Method::multi_light) return {};
+  SelectedImage chosen = options.method == Method::rgb_ratio
+                             ? select_colored_image(stack, problem.images, options.frame)
+                             : select_any_image(problem.images, options.frame);
+  problem.images = std::move(chosen.image);
+  return "; " + chosen.explanation;
+}
+
+MethodResult run_method(const RefineProblem& problem, const RefineOptions& options, const IterationCallback& callback) {
+  switch (options.method) {
+    case Method::multi_light: return refine_multi_light(problem, options, callback);
+    case Method::rgb_ratio: return refine_rgb_ratio(problem, options, callback);
+    case Method::fusion_like: return refine_fusion_like(problem, options, callback);
+    case Method::rgbd_fusion: return refine_fusion_like(problem, options, callback);
+  }
+  throw UsageError("unknown method");
+}
+
 }  // namespace
 
 RefineResult refine_depth(const LightStack& stack, const RefineOptions& options, const ProgressCallback& progress) {
   const ThreadCount threads(options.threads);
   report(progress, "preparing", 0.0, 0);
   check_stack(stack);
-  const RefineProblem problem = make_problem(stack, options);
+  RefineProblem problem = make_problem(stack, options);
+  const std::string which_image = select_images(stack, options, problem);
   report(progress, "refining", kPreparation, 0);
   const IterationCallback after_iteration = [&](int iteration, double fraction) {
     report(progress, "refining", kPreparation + (1 - kPreparation) * fraction, iteration);
   };
-  return make_result(problem, refine_multi_light(problem, options, after_iteration), options);
+  MethodResult method = run_method(problem, options, after_iteration);
+  method.message += which_image;
+  return make_result(problem, std::move(method), options);
 }
 
 }  // namespace rakelight

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "refine/steps/albedo.h"
+#include "refine/steps/albedo_smooth.h"
+#include "refine/steps/laplacian.h"
+#include "refine/steps/lighting.h"
+#include "refine/steps/robust_weights.h"
+#include "refine/steps/smooth_depth_step.h"
+
+namespace rakelight {
+namespace {
+
+constexpr int kSmoothFits = 2;          // lamps and albedo are first fitted to the sensor's broad shape
+constexpr double kSmoothFitSigma = 5;   // pixels
+constexpr float kDarkAlbedo = 0.05f;    // of the mean: below, I / rho says nothing
+
+SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& options) {
+  SurfaceState state;
+  state.zeta = problem.prior.start;
+  state.points = surface_points(problem.grid, state.zeta);
+  state.scene = {state.points.rowwise().mean(), static_cast<float>(options.lamps.lobe_exponent)};
+  state.albedo = Eigen::Matrix3Xf::Ones(3, problem.grid.size());
+  state.attached_shadows = options.trust.attached_shadows;
+  state.weight = usable_weights(problem.images);
+  return state;
+}
+
+/// Normals averaged over their surroundings inside the mask.
+Eigen::Matrix3Xf smoothed(const PixelGrid& grid, const Eigen::Matrix3Xf& normals) {
+  cv::Mat3f image(grid.index.size(), cv::Vec3f::all(0));
+  for (int p = 0; p < grid.size(); ++p)
+    image(grid.pixels[static_cast<size_t>(p)]) = {normals(0, p), normals(1, p), normals(2, p)};
+  cv::GaussianBlur(image, image, cv::Size(), kSmoothFitSigma);
+  Eigen::Matrix3Xf result(3, grid.size());
+  for (int p = 0; p < grid.size(); ++p) {
+    const cv::Vec3f& n = image(grid.pixels[static_cast<size_t>(p)]);
+    result.col(p) = Eigen::Vector3f(n[0], n[1], n[2]).normalized();
+  }
+  return result;
+}
+
+/// The image as it would be were the object white: I / rho, weight 0 where the albedo is too dark to divide by.
+Observations shading_image(const Observations& image, SurfaceState& state, ImageLight light) {
+  Observations out = image;
+  for (int p = 0; p < image.pixels; ++p) {
+    Eigen::Vector3f S;
+    for (int c = 0; c < 3; ++c) S[c] = image.channel(0, c)[p] / std::max(kDarkAlbedo, state.albedo(c, p));
+    if (light == ImageLight::white) S.setConstant(S.mean());
+    for (int c = 0; c < 3; ++c)
+      out.radiance[static_cast<size_t>(c) * static_cast<size_t>(image.pixels) + static_cast<size_t>(p)] = S[c];
+    const bool dark = state.albedo.col(p).minCoeff() < kDarkAlbedo;
+    state.weight[static_cast<size_t>(p)] = image.usable_in(0)[p] && !dark ? 1.0f : 0.0f;
+  }
+  return out;
+}
+
+/// The state with the albedo divided out of it.
+SurfaceState white_object(const SurfaceState& state) {
+  SurfaceState white = state;
+  white.albedo.setOnes();
+  return white;
+}
+
+double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  return std::sqrt((after.array().exp() - before.array().exp()).square().mean());
+}
+
+}  // namespace
+
+MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions& options, ImageLight light,
+                               const IterationCallback& after_iteration) {
+  MethodResult result;
+  SurfaceState& state = result.state = initial_state(problem, options);
+  const PixelGrid& grid = problem.grid;
+  AlbedoSmoother smoother(grid, problem.images, options.albedo);
+  const double focal = grid.camera.fx;
+  const Smoothness smoothness(laplacian(grid, problem.cut_right, problem.cut_down),
+                              options.depth.smoothness * focal * focal);
+  SparseCholesky solver;
+  DepthPrior prior = problem.prior;
+  prior.cell_weight *= options.depth.sensor_weight;
+  const auto fail = [&](const std::string& what, int t) {
+    result.termination = Termination::diverged;
+    result.message = "the " + what + " system was singular at iteration " + std::to_string(t) +
+                     "; the state before it is given";
+  };
+
+  for (int t = 1; t <= options.max_iterations; ++t) {
+    IterationReport report;
+    report.index = t;
+    state.normals = surface_normals(grid, problem.corners, state.zeta);
+    state.points = surface_points(grid, state.zeta);
+    SurfaceState broad = white_object(state);
+    if (t <= kSmoothFits) broad.normals = smoothed(grid, state.normals);
+
+    broad.lamps = estimate_far_lamps(shading_image(problem.images, state, light), broad);  // Eq. (9)
+    broad.albedo = state.albedo;
+    if (!smoother.estimate(broad, state.albedo)) {                                         // Eq. (10), on logarithms
+      fail("albedo", t);
+      break;
+    }
+    state.lamps = broad.lamps;
+    normalize_albedo(state);
+    const Observations white_image = shading_image(problem.images, state, light);
+    SurfaceState white = white_object(state);
+    if (t <= kSmoothFits) white.normals = broad.normals;
+    white.lamps = state.lamps = estimate_far_lamps(white_image, white);
+    white.normals = state.normals;
+    report.residual_scale = residual_scale(white_image, white);
+
+    const auto tensors = accumulate_tensors(white_image, white);
+    const auto weights = corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
+    const DepthProblem depth{grid, problem.corners, tensors, weights, prior};
+    const Eigen::VectorXd before = state.zeta;
+    const DepthStepReport step = smooth_depth_step(depth, smoothness, options.depth, solver, state.zeta);  // Eq. (12)
+
+    report.energy_before_depth = step.energy_before;
+    report.energy = step.energy_after;
+    report.backtracks = step.backtracks;
+    report.depth_change_mm = 1e3 * rms_change_m(before, state.zeta);
+    report.sensor_weight = prior.cell_weight.maxCoeff();
+    result.iterations.push_back(report);
+    after_iteration(t, static_cast<double>(t) / options.max_iterations);
+    if (!step.solved) {
+      fail("depth", t);
+      break;
+    }
+    if (t > options.min_iterations && report.depth_change_mm < 1e3 * options.tolerance * problem.sensor.noise_m) {
+      result.termination = Termination::converged;
+      result.message = "settled after " + std::to_string(t) + " iterations";
+      break;
+    }
+  }
+  if (result.termination == Termination::max_iterations)
+    result.message = "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations";
+  state.normals = surface_normals(grid, problem.corners, state.zeta);
+  state.points = surface_points(grid, state.zeta);
+  return result;
+}
+
+}  // namespace rakelight
