@@ -191,7 +191,7 @@ void add_depth_options(CLI::App& command, Changes& add) {
                   [](Options& o, int v) { o.depth.frames = v; });
   add.option<double>(
          "--depth-noise-mm",
-         "Deviation at 1 m of the noise correlated in space; default: 4.5; white noise is a third",
+         "Deviation at 1 m of the noise correlated in space; default: 3.6; white noise is a third",
          [](Options& o, double v) {
            o.depth.noise_mm = v;
            o.depth.white_noise_mm = v / 3;

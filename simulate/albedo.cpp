@@ -81,7 +81,7 @@ Color simple(const Point& p, std::uint64_t seed) {
                                              Color(0.18, 0.34, 0.50), Color(0.70, 0.52, 0.20)};
   const Point q = p + 0.18 * warp(CounterRandom(seed, kNoise), 1.6 * p);
   const CounterRandom random(seed, kRegion);
-  return pick(kPalette, random.uniform(8 * nearest_site(random, 1.25 * q, 0.9).cell + 2));
+  return pick(kPalette, random.uniform(8 * nearest_site(random, 1.6 * q, 0.9).cell + 2));
 }
 
 Color pattern(const Point& p, std::uint64_t seed) {

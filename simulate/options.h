@@ -60,10 +60,10 @@ struct ImageOptions {
 /// Structured-light depth sensor: it measures disparity d = f b / z, so errors grow with z squared.
 struct DepthSensorOptions {
   int frames = 0;                    ///< depth frames; 0: one an image
-  double noise_mm = 4.5;             ///< standard deviation at 1 m of the part that is correlated in space
+  double noise_mm = 3.6;             ///< standard deviation at 1 m of the part that is correlated in space
   double correlation_px = 4.5;       ///< radius of that correlation, pixels of a 640-wide grid
   double correlated_drift = 0.25;    ///< share of it that changes from frame to frame
-  double white_noise_mm = 1.5;       ///< standard deviation at 1 m of the part drawn anew a pixel and frame
+  double white_noise_mm = 1.2;       ///< standard deviation at 1 m of the part drawn anew a pixel and frame
   double disparity_step_px = 0.125;  ///< quantisation of disparity, pixels of a 640-wide grid; 0: none
   double baseline_m = 0.075;         ///< camera to projector, along x
   bool holes = true;                 ///< no reading at grazing angles, depth edges, in the projector's shadow

@@ -50,11 +50,12 @@ class Cloth {
     constexpr double kTurn = 0.62;
     for (int row = 0; row < options_.nodes; ++row) {
       for (int column = 0; column < options_.nodes; ++column) {
-        const double x = options_.side * (static_cast<double>(column) / (options_.nodes - 1) - 0.5) + 0.03;
-        const double z = options_.side * (static_cast<double>(row) / (options_.nodes - 1) - 0.5) - 0.04;
+        const Eigen::Vector2d p = flat_point(options_, static_cast<double>(column) / (options_.nodes - 1),
+                                             static_cast<double>(row) / (options_.nodes - 1)) +
+                                  Eigen::Vector2d(0.03, -0.04);
         const double uneven = 0.01 * random.normal(at(column, row));
-        now_.push_back(Eigen::Vector3d(std::cos(kTurn) * x - std::sin(kTurn) * z, -0.66 + uneven,
-                                       std::sin(kTurn) * x + std::cos(kTurn) * z)
+        now_.push_back(Eigen::Vector3d(std::cos(kTurn) * p.x() - std::sin(kTurn) * p.y(), -0.66 + uneven,
+                                       std::sin(kTurn) * p.x() + std::cos(kTurn) * p.y())
                            .cast<float>());
       }
     }
@@ -67,15 +68,15 @@ class Cloth {
       double stiffness;
     };
     const double bend = options_.bend_stiffness;
-    const double spacing = options_.side / (options_.nodes - 1);
     for (const Step& s : {Step{1, 0, 1}, {0, 1, 1}, {1, 1, 0.5}, {-1, 1, 0.5}, {2, 0, bend}, {0, 2, bend}}) {
       for (int row = 0; row + s.rows < options_.nodes; ++row) {
         for (int column = 0; column < options_.nodes; ++column) {
           const int other = column + s.columns;
           if (other < 0 || other >= options_.nodes) continue;
-          links_.push_back({at(column, row), at(other, row + s.rows),
-                            static_cast<float>(spacing * std::hypot(s.columns, s.rows)),
-                            static_cast<float>(s.stiffness)});
+          const std::size_t from = at(column, row), to = at(other, row + s.rows);
+          const float length =
+              Eigen::Vector2f(now_[to].x() - now_[from].x(), now_[to].z() - now_[from].z()).norm();
+          links_.push_back({from, to, length, static_cast<float>(s.stiffness)});
         }
       }
     }
@@ -105,6 +106,11 @@ class Cloth {
 };
 
 }  // namespace
+
+Eigen::Vector2d flat_point(const ClothOptions& options, double s, double t) {
+  const double x = 2 * s - 1, y = 2 * t - 1;  // the elliptical map of the square to the disc
+  return options.radius * Eigen::Vector2d(x * std::sqrt(1 - y * y / 2), y * std::sqrt(1 - x * x / 2));
+}
 
 std::vector<Eigen::Vector3f> fallen_cloth(const ClothOptions& options) {
   Cloth cloth(options);

@@ -51,10 +51,9 @@ SceneMesh make_drape(int detail) {
   const std::vector<Eigen::Vector3f> nodes = fallen_cloth(options);
   const GridShape shape{9 * detail / 4, 9 * detail / 4, false};
   return parametric_grid(shape, [&](double s, double t) {
-    const Eigen::Vector2d texture{options.side * (s - 0.5), options.side * (t - 0.5)};
     const Eigen::Vector3d smooth = spline_point(nodes, options.nodes, s, t);
     const Eigen::Vector3d outward(smooth.x(), 0.35 * smooth.y(), smooth.z());
-    return SurfacePoint{smooth + crease(s, t) * outward.normalized(), texture};
+    return SurfacePoint{smooth + crease(s, t) * outward.normalized(), flat_point(options, s, t)};
   });
 }
 

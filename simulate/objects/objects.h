@@ -15,7 +15,7 @@ SceneMesh make_vase(int detail);
 /// A medal: a profile head in low relief, lettering, a beaded and a raised rim, a reeded edge.
 SceneMesh make_coin(int detail);
 
-/// A square cloth that fell on a ball and hangs in folds that hide one another.
+/// A round cloth that fell on a ball and hangs in folds that hide one another.
 SceneMesh make_drape(int detail);
 
 /// Unit sphere about the origin.
