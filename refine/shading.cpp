@@ -55,7 +55,7 @@ Observations shading_image(const Observations& image, SurfaceState& state, Image
     for (int c = 0; c < 3; ++c)
       out.radiance[static_cast<size_t>(c) * static_cast<size_t>(image.pixels) + static_cast<size_t>(p)] = S[c];
     const bool dark = state.albedo.col(p).minCoeff() < kDarkAlbedo;
-    state.weight[static_cast<size_t>(p)] = image.usable_in(0)[p] && !dark ? 1.0f : 0.0f;
+    state.weight[static_cast<size_t>(p)] = image.usable_channels(0, p).minCoeff() > 0 && !dark ? 1.0f : 0.0f;
   }
   return out;
 }

@@ -93,7 +93,7 @@ bool AlbedoSmoother::estimate(const SurfaceState& state, Eigen::Matrix3Xf& albed
   Eigen::VectorXd weight(grid_.size());
   for (int p = 0; p < grid_.size(); ++p) {
     constexpr double kUnknown = 1e-6;  // keeps regions without any usable pixel determined
-    weight[p] = S.col(p).minCoeff() > dim && image_.usable_in(0)[p] ? 1.0 : kUnknown;
+    weight[p] = S.col(p).minCoeff() > dim && image_.usable_channels(0, p).minCoeff() > 0 ? 1.0 : kUnknown;
     target.col(p) -= S.col(p).cwiseMax(dim).array().log().matrix().cast<double>();
   }
   Eigen::Matrix3Xd smooth(3, grid_.size());

@@ -18,7 +18,7 @@ Observations only(const Observations& images, int i) {
   one.pixels = images.pixels;
   one.images = 1;
   one.radiance.assign(images.radiance.begin() + 3 * pixels * at, images.radiance.begin() + 3 * pixels * (at + 1));
-  one.usable.assign(images.usable.begin() + pixels * at, images.usable.begin() + pixels * (at + 1));
+  one.usable.assign(images.usable.begin() + 3 * pixels * at, images.usable.begin() + 3 * pixels * (at + 1));
   one.light_ids = {images.light_ids[k]};
   one.frame_index = {images.frame_index[k]};
   one.colored_lamps = {images.colored_lamps[k]};
@@ -60,8 +60,7 @@ std::optional<SelectedImage> composed(const LightStack& stack, const Observation
   for (int c = 0; c < 3; ++c) {
     const int i = *lit[static_cast<size_t>(c)];
     std::copy_n(images.channel(i, c), images.pixels, result.image.radiance.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
-    for (int p = 0; p < images.pixels; ++p)
-      result.image.usable[static_cast<size_t>(p)] &= images.usable_in(i)[p];
+    std::copy_n(images.usable_in(i, c), images.pixels, result.image.usable.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
     result.explanation += (c == 0 ? " " : ", ") + std::to_string(images.frame_index[static_cast<size_t>(i)]);
   }
   result.explanation += " (red, green and blue lamps) were put together";
