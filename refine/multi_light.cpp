@@ -67,6 +67,13 @@ double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after)
   return std::sqrt((after.array().exp() - before.array().exp()).square().mean());
 }
 
+void require_enough_images(const Observations& images) {
+  constexpr int kLeastImages = 4;  // as many as unknowns of a lit pixel: shape (2), albedo and ambient share
+  if (images.images >= kLeastImages) return;
+  throw InputError("the stack", "has " + std::to_string(images.images) + " lit images, and the multi-light method needs at least 4",
+                   "record more lamps, or choose a method for one image");
+}
+
 void require_three_directions(const Observations& images, const SurfaceState& state, MethodResult& result) {
   const Eigen::Vector3d spread = lamp_singular_values(state.lamps, state.scene);
   const double ratio = spread[0] > 0 ? spread[2] / spread[0] : 0;
@@ -97,6 +104,7 @@ bool settled(const RefineProblem& problem, const RefineOptions& options, const s
 MethodResult refine_multi_light(const RefineProblem& problem, const RefineOptions& options,
                                 const IterationCallback& after_iteration) {
   const Observations& images = problem.images;
+  require_enough_images(images);
   MethodResult result;
   SurfaceState& state = result.state = initial_state(problem, options);
   const auto solver = make_cholesky_depth_solver(problem.grid, problem.prior.cells);

@@ -9,7 +9,8 @@
 namespace rakelight {
 
 /// Alternates lamps (26), albedo (27), robust weights and depth (32), (34) until the depth (robust) or the energy
-/// (paper) settles. @throws InputError when the lamps' directions do not determine the shape.
+/// (paper) settles. @throws InputError when there are fewer than 4 images or their lamps'
+/// directions do not determine the shape.
 MethodResult refine_multi_light(const RefineProblem& problem, const RefineOptions& options,
                                 const IterationCallback& after_iteration);
 
