@@ -29,8 +29,8 @@ constexpr int kNotConverged = 7;
 struct Arguments {
   std::filesystem::path stack, output, config;
   std::optional<std::string> method, preset, mask, response, lamps;
-  std::optional<int> scale, iterations, threads;
-  bool json = false;
+  std::optional<int> scale, iterations, threads, frame;
+  bool json = false, no_smoothness = false;
 };
 
 constexpr const char* kFooter = R"(Examples:
@@ -62,6 +62,8 @@ RefineOptions options_of(const Arguments& arguments) {
       arguments.config, {value_named<Preset>(arguments.preset), value_named<Method>(arguments.method)});
   options.scale = arguments.scale.value_or(options.scale);
   options.max_iterations = arguments.iterations.value_or(options.max_iterations);
+  options.frame = arguments.frame.value_or(options.frame);
+  if (arguments.no_smoothness) options.depth.smoothness = 0;
   options.threads = arguments.threads.value_or(options.threads);
   options.lamps.model = value_named<LampModel>(arguments.lamps).value_or(options.lamps.model);
   return options;
@@ -154,6 +156,11 @@ void add_refine_command(CLI::App& program, int& exit_code) {
       ->type_name("FILE");
   command->add_option("--threads", arguments->threads, "Threads; 0 (default): all; the result is the same")
       ->check(CLI::Range(0, 1024));
+  command
+      ->add_option("--frame", arguments->frame,
+                   "Single-image methods: index of the frame to use; default: the first that fits")
+      ->check(CLI::Range(0, 1000000));
+  command->add_flag("--ns", arguments->no_smoothness, "Single-image methods: no Laplacian smoothness of the depth");
   command->add_flag("--json", arguments->json, "Print one JSON object on stdout and nothing else there");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -71,7 +71,7 @@ void require_enough_images(const Observations& images) {
   constexpr int kLeastImages = 4;  // as many as unknowns of a lit pixel: shape (2), albedo and ambient share
   if (images.images >= kLeastImages) return;
   throw InputError("the stack", "has " + std::to_string(images.images) + " lit images, and the multi-light method needs at least 4",
-                   "record more lamps, or choose a method for one image");
+                   "record more lamps, or use --method rgb-ratio for one image under red, green and blue lamps, fusion-like for any one");
 }
 
 void require_three_directions(const Observations& images, const SurfaceState& state, MethodResult& result) {

@@ -56,6 +56,12 @@ void for_each_option(Options& options, Visitor&& visit) {
   visit("albedo.edge_floor", options.albedo.edge_floor);
   visit("albedo.palette_bandwidth", options.albedo.palette_bandwidth);
   visit("albedo.palette_weight", options.albedo.palette_weight);
+  visit("albedo.depth_sigma", options.albedo.depth_sigma);
+  visit("albedo.cutoff", options.albedo.cutoff);
+  visit("albedo.local_smoothness", options.albedo.local_smoothness);
+  visit("albedo.local_weight", options.albedo.local_weight);
+  visit("albedo.ratio_sigma", options.albedo.ratio_sigma);
+  visit("albedo.ratio_smoothness", options.albedo.ratio_smoothness);
   visit("depth.sensor_weight", options.depth.sensor_weight);
   visit("depth.noise_ratio", options.depth.noise_ratio);
   visit("depth.smoothness", options.depth.smoothness);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/options.h"
 
+#include <cmath>
+
 namespace rakelight {
 
 namespace {
@@ -13,6 +15,21 @@ void single_image_defaults(RefineOptions& options) {
   options.trust.attached_shadows = false;
   options.depth.sensor_weight = 100;
   options.depth.smoothness = 0.1;
+}
+
+/// Table I.
+void single_image_paper(RefineOptions& options) {
+  options.albedo.edge_sigma = std::sqrt(0.05);
+  options.albedo.smoothness = 10;
+  if (options.method == Method::fusion_like) {
+    options.depth.sensor_weight = 500;
+    options.depth.smoothness = 2;
+  } else if (options.method == Method::rgbd_fusion) {
+    options.albedo.smoothness = 0.1;
+    options.albedo.cutoff = 0.05;
+    options.depth.sensor_weight = 0.004;
+    options.depth.smoothness = 0.0075;
+  }
 }
 
 }  // namespace
@@ -37,6 +54,7 @@ RefineOptions preset_options(Preset preset, Method method) {
   options.depth.linearization = Linearization::fixed_point;
   options.depth.stencil = Stencil::forward;
   options.depth.max_backtracks = 0;
+  if (method != Method::multi_light) single_image_paper(options);
   return options;
 }
 

@@ -56,7 +56,13 @@ struct AlbedoOptions {
   double edge_sigma = 0.05;        ///< sigma_I: change between neighbours that begins to count as an edge of the paint
   double edge_floor = 1e-3;        ///< share of the smoothness that is left across an edge
   double palette_bandwidth = 0.25; ///< of the object's few colours in log RGB; 0: no palette
-  double palette_weight = 1;       ///< pull to the palette against the pixel's own colour
+  double palette_weight = 10;      ///< pull to the palette against the pixel's own colour
+  double depth_sigma = 7.07;       ///< sigma_z of Eq. (11), in the unit of the method's depth (preset paper only)
+  double cutoff = 0;               ///< tau of RGBD-Fusion: no smoothing where |I - I_k|^2 is more; 0: none (paper only)
+  double local_smoothness = 0.1;   ///< lambda_b1 of RGBD-Fusion's local term (paper only)
+  double local_weight = 0.1;       ///< lambda_b2 of RGBD-Fusion's local term (paper only)
+  double ratio_sigma = 100;        ///< sigma_c of Eq. (21), rgb-ratio (paper only)
+  double ratio_smoothness = 100;   ///< lambda_rho1 / lambda_rho2 of Eq. (20), rgb-ratio (paper only)
 };
 
 /// The depth step, Eq. (32) and (34).

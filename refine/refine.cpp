@@ -11,6 +11,7 @@
 #include "refine/multi_light.h"
 #include "refine/problem.h"
 #include "refine/rgb_ratio.h"
+#include "refine/rgbd_fusion.h"
 #include "refine/steps/near_lamps.h"
 #include "refine/steps/noise.h"
 #include "refine/steps/select_image.h"
@@ -114,7 +115,7 @@ MethodResult run_method(const RefineProblem& problem, const RefineOptions& optio
     case Method::multi_light: return refine_multi_light(problem, options, callback);
     case Method::rgb_ratio: return refine_rgb_ratio(problem, options, callback);
     case Method::fusion_like: return refine_fusion_like(problem, options, callback);
-    case Method::rgbd_fusion: return refine_fusion_like(problem, options, callback);
+    case Method::rgbd_fusion: return refine_rgbd_fusion(problem, options, callback);
   }
   throw UsageError("unknown method");
 }

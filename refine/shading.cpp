@@ -18,18 +18,10 @@ namespace {
 
 constexpr int kSmoothFits = 2;          // lamps and albedo are first fitted to the sensor's broad shape
 constexpr double kSmoothFitSigma = 5;   // pixels
+// Where the paint changes at nearly every step, the albedo is not determined by smoothness, and smoothness of depth has
+// to take over: it counts (1 - share of steps within one paint)^6, shading the rest to 1.
+constexpr double kPatchyPower = 6;
 constexpr float kDarkAlbedo = 0.05f;    // of the mean: below, I / rho says nothing
-
-SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& options) {
-  SurfaceState state;
-  state.zeta = problem.prior.start;
-  state.points = surface_points(problem.grid, state.zeta);
-  state.scene = {state.points.rowwise().mean(), static_cast<float>(options.lamps.lobe_exponent)};
-  state.albedo = Eigen::Matrix3Xf::Ones(3, problem.grid.size());
-  state.attached_shadows = options.trust.attached_shadows;
-  state.weight = usable_weights(problem.images);
-  return state;
-}
 
 /// Normals averaged over their surroundings inside the mask.
 Eigen::Matrix3Xf smoothed(const PixelGrid& grid, const Eigen::Matrix3Xf& normals) {
@@ -45,17 +37,26 @@ Eigen::Matrix3Xf smoothed(const PixelGrid& grid, const Eigen::Matrix3Xf& normals
   return result;
 }
 
-/// The image as it would be were the object white: I / rho, weight 0 where the albedo is too dark to divide by.
-Observations shading_image(const Observations& image, SurfaceState& state, ImageLight light) {
+/// The image as it would be were the object white: I / rho; not usable where the albedo is too dark to divide by.
+Observations shading_image(const Observations& image, const SurfaceState& state, ImageLight light) {
   Observations out = image;
+  const auto pixels = static_cast<size_t>(image.pixels);
   for (int p = 0; p < image.pixels; ++p) {
+    Eigen::Vector3f usable = image.usable_channels(0, p);
     Eigen::Vector3f S;
-    for (int c = 0; c < 3; ++c) S[c] = image.channel(0, c)[p] / std::max(kDarkAlbedo, state.albedo(c, p));
-    if (light == ImageLight::white) S.setConstant(S.mean());
-    for (int c = 0; c < 3; ++c)
-      out.radiance[static_cast<size_t>(c) * static_cast<size_t>(image.pixels) + static_cast<size_t>(p)] = S[c];
-    const bool dark = state.albedo.col(p).minCoeff() < kDarkAlbedo;
-    state.weight[static_cast<size_t>(p)] = image.usable_channels(0, p).minCoeff() > 0 && !dark ? 1.0f : 0.0f;
+    for (int c = 0; c < 3; ++c) {
+      if (state.albedo(c, p) < kDarkAlbedo) usable[c] = 0;
+      S[c] = image.channel(0, c)[p] / std::max(kDarkAlbedo, state.albedo(c, p));
+    }
+    if (light == ImageLight::white) {
+      S.setConstant(usable.dot(S) / std::max(1.0f, usable.sum()));
+      usable.setConstant(usable.maxCoeff());
+    }
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t at = c * pixels + static_cast<size_t>(p);
+      out.radiance[at] = S[static_cast<Eigen::Index>(c)];
+      out.usable[at] = usable[static_cast<Eigen::Index>(c)] > 0;
+    }
   }
   return out;
 }
@@ -73,15 +74,28 @@ double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after)
 
 }  // namespace
 
+SurfaceState initial_shading_state(const RefineProblem& problem, const RefineOptions& options) {
+  SurfaceState state;
+  state.zeta = problem.prior.start;
+  state.points = surface_points(problem.grid, state.zeta);
+  state.scene = {state.points.rowwise().mean(), static_cast<float>(options.lamps.lobe_exponent)};
+  state.albedo = Eigen::Matrix3Xf::Ones(3, problem.grid.size());
+  state.attached_shadows = options.trust.attached_shadows;
+  state.weight = usable_weights(problem.images);
+  return state;
+}
+
 MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions& options, ImageLight light,
                                const IterationCallback& after_iteration) {
   MethodResult result;
-  SurfaceState& state = result.state = initial_state(problem, options);
+  SurfaceState& state = result.state = initial_shading_state(problem, options);
   const PixelGrid& grid = problem.grid;
   AlbedoSmoother smoother(grid, problem.images, options.albedo);
   const double focal = grid.camera.fx;
+  const double patchy = std::pow(1 - smoother.plain_share(), kPatchyPower);
+  const auto trust = static_cast<float>(1 - patchy);
   const Smoothness smoothness(laplacian(grid, problem.cut_right, problem.cut_down),
-                              options.depth.smoothness * focal * focal);
+                              options.depth.smoothness * patchy * focal * focal);
   SparseCholesky solver;
   DepthPrior prior = problem.prior;
   prior.cell_weight *= options.depth.sensor_weight;
@@ -115,7 +129,9 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
     report.residual_scale = residual_scale(white_image, white);
 
     const auto tensors = accumulate_tensors(white_image, white);
-    const auto weights = corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
+    auto weights = corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
+    for (auto& corners : weights)
+      for (float& w : corners) w *= trust;
     const DepthProblem depth{grid, problem.corners, tensors, weights, prior};
     const Eigen::VectorXd before = state.zeta;
     const DepthStepReport step = smooth_depth_step(depth, smoothness, options.depth, solver, state.zeta);  // Eq. (12)
@@ -141,6 +157,7 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
     result.message = "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations";
   state.normals = surface_normals(grid, problem.corners, state.zeta);
   state.points = surface_points(grid, state.zeta);
+  result.quality["shading_trust"] = static_cast<double>(trust);
   return result;
 }
 

@@ -60,6 +60,16 @@ EdgeWeights color_edge_weights(const PixelGrid& grid, const Observations& image,
 AlbedoSmoother::AlbedoSmoother(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options)
     : grid_(grid), image_(image), options_(options), edges_(color_edge_weights(grid, image, options)) {}
 
+double AlbedoSmoother::plain_share() const {
+  double sum = 0, count = 0;
+  for (int p = 0; p < grid_.size(); ++p) {
+    const auto i = static_cast<size_t>(p);
+    sum += edges_.right[i] + edges_.down[i];
+    count += (grid_.neighbor[kRight][i] >= 0 ? 1 : 0) + (grid_.neighbor[kDown][i] >= 0 ? 1 : 0);
+  }
+  return count > 0 ? sum / count : 1;
+}
+
 bool AlbedoSmoother::solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd& weighted_target,
                            Eigen::Matrix3Xd& log_albedo) {
   const int count = grid_.size();

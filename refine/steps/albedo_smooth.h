@@ -31,6 +31,9 @@ class AlbedoSmoother {
   /// Albedo (3 x pixels) under the state's normals and lamps. @return false when the system is singular.
   bool estimate(const SurfaceState& state, Eigen::Matrix3Xf& albedo);
 
+  /// Mean v_pq: the share of steps between neighbours that stay within one paint.
+  double plain_share() const;
+
  private:
   bool solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd& weighted_target, Eigen::Matrix3Xd& log_albedo);
 

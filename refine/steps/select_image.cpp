@@ -60,7 +60,8 @@ std::optional<SelectedImage> composed(const LightStack& stack, const Observation
   for (int c = 0; c < 3; ++c) {
     const int i = *lit[static_cast<size_t>(c)];
     std::copy_n(images.channel(i, c), images.pixels, result.image.radiance.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
-    std::copy_n(images.usable_in(i, c), images.pixels, result.image.usable.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
+    std::copy_n(images.usable_in(i, c), images.pixels,
+                result.image.usable.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
     result.explanation += (c == 0 ? " " : ", ") + std::to_string(images.frame_index[static_cast<size_t>(i)]);
   }
   result.explanation += " (red, green and blue lamps) were put together";
