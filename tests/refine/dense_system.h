@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A depth system as a full matrix, for comparing with dense algebra.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "refine/solver/depth_solver.h"
+
+namespace rakelight::test {
+
+/// K: the mean over each cell, cells x pixels.
+inline Eigen::MatrixXd dense_means(const DepthCells& cells) {
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(cells.pixels_of.size()),
+                                            static_cast<Eigen::Index>(cells.cell_of.size()));
+  for (Eigen::Index cell = 0; cell < K.rows(); ++cell) {
+    const auto& pixels = cells.pixels_of[static_cast<size_t>(cell)];
+    for (const int p : pixels) K(cell, p) = 1.0 / static_cast<double>(pixels.size());
+  }
+  return K;
+}
+
+/// Stencil + K' Lambda K.
+inline Eigen::MatrixXd dense_matrix(const PixelGrid& grid, const DepthCells& cells, const DepthSystem& system) {
+  const Eigen::MatrixXd K = dense_means(cells);
+  Eigen::MatrixXd A = K.transpose() * system.cell_weight.asDiagonal() * K;
+  const auto add = [&](int p, int u, int v, double value) {
+    if (u < 0 || v < 0 || u >= grid.index.cols || v >= grid.index.rows || grid.index(v, u) < 0) return;
+    A(p, grid.index(v, u)) += value;
+    A(grid.index(v, u), p) += value;
+  };
+  for (int p = 0; p < grid.size(); ++p) {
+    const size_t i = static_cast<size_t>(p);
+    const cv::Point at = grid.pixels[i];
+    A(p, p) += system.diagonal[i];
+    add(p, at.x + 1, at.y, system.right[i]);
+    add(p, at.x, at.y + 1, system.down[i]);
+    add(p, at.x + 1, at.y + 1, system.down_right[i]);
+    add(p, at.x - 1, at.y + 1, system.down_left[i]);
+  }
+  return A;
+}
+
+/// About thirty pixels: a rectangle with a bite, a hole and a pixel that hangs by its side.
+inline PixelGrid bitten_grid() {
+  cv::Mat1b mask(7, 8, uchar{0});
+  mask(cv::Rect(1, 1, 6, 5)).setTo(255);
+  mask(1, 1) = mask(1, 2) = mask(3, 3) = 0;
+  mask(6, 6) = 255;
+  return make_pixel_grid({8, 7, 20.0, 22.0, 3.6, 2.9, {}}, mask);
+}
+
+}  // namespace rakelight::test

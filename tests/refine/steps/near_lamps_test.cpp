@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/steps/near_lamps.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+#include "tests/refine/exact_surface.h"
+
+namespace rakelight {
+namespace {
+
+Lamp near_lamp(float x, float y, float distance_m) {
+  Lamp lamp;
+  lamp.near = true;
+  lamp.direction = Eigen::Vector3f(x, y, -1).normalized();
+  lamp.inverse_distance = 1 / distance_m;
+  lamp.strength << 0.8f, 0.7f, 0.6f;
+  lamp.phi << 0.05f, 0.04f, 0.03f;
+  return lamp;
+}
+
+/// A sphere of varied albedo under four near lamps.
+struct NearlyLitSphere {
+  test::ExactSurface sphere = test::exact_sphere();
+  std::vector<Lamp> truth{near_lamp(0.5f, 0, 0.7f), near_lamp(0, 0.6f, 0.8f), near_lamp(-0.4f, -0.3f, 0.6f),
+                          near_lamp(0.1f, -0.6f, 0.9f)};
+  SurfaceState state = test::exact_state(sphere, test::varied_albedo(sphere), truth, true);
+  Observations images = test::images_of(state);
+};
+
+TEST(NearLampRow, ItsDerivativesAgreeWithFiniteDifferences) {
+  const Eigen::Vector3f offset(0.1f, -0.05f, 0.08f), normal = Eigen::Vector3f(0.2f, 0.3f, -1).normalized();
+  const float h = 2e-3f;
+  for (const float lobe : {0.0f, 1.0f, 2.5f}) {
+    const Lamp lamp = near_lamp(0.4f, -0.2f, 0.7f);
+    Eigen::Matrix<float, 3, 2> tangents;
+    tangents.col(0) = lamp.direction.unitOrthogonal();
+    tangents.col(1) = lamp.direction.cross(tangents.col(0));
+    const auto shading_at = [&](int unknown, float change) {
+      Lamp moved = lamp;
+      if (unknown < 2) moved.direction = (lamp.direction + change * tangents.col(unknown)).normalized();
+      if (unknown == 2) moved.inverse_distance += change;
+      if (unknown >= 3 && unknown < 6) moved.strength[unknown - 3] += change;
+      if (unknown >= 6) moved.phi[unknown - 6] += change;
+      return near_lamp_row(moved, tangents, offset, normal, lobe).shading;
+    };
+    const NearLampRow row = near_lamp_row(lamp, tangents, offset, normal, lobe);
+    for (int k = 0; k < 9; ++k) {
+      const Eigen::Vector3f slope = (shading_at(k, h) - shading_at(k, -h)) / (2 * h);
+      EXPECT_LT((slope - row.derivative.col(k)).norm(), 1e-3f) << "unknown " << k << ", lobe " << lobe;
+    }
+  }
+}
+
+TEST(NearLampRow, APointThatTheLampDoesNotReachSpeaksForTheAmbientShareOnly) {
+  const Lamp lamp = near_lamp(0, 0, 0.7f);
+  const NearLampRow row = near_lamp_row(lamp, Eigen::Matrix<float, 3, 2>::Zero(), {0, 0, 0}, {0, 0, 1}, 1);
+  EXPECT_EQ(row.shading, lamp.phi);
+  EXPECT_EQ((row.derivative.leftCols<6>().norm()), 0);
+}
+
+TEST(NearLamps, ShadeAsThePointSourceFormulaSays) {
+  const NearlyLitSphere lit;
+  const Lamp& lamp = lit.truth[2];
+  const Eigen::Vector3d X = lamp_position(lamp, lit.state.scene), center = lit.state.scene.center.cast<double>();
+  const double R = (X - center).norm();
+  for (int p = 0; p < lit.images.pixels; p += 37) {
+    const Eigen::Vector3d to_lamp = X - lit.state.points.col(p).cast<double>();
+    const double cosine = to_lamp.dot(X - center) / (to_lamp.norm() * R);
+    const double expected = to_lamp.dot(lit.state.normals.col(p).cast<double>()) * R * R * cosine /
+                            std::pow(to_lamp.norm(), 3) * static_cast<double>(lamp.strength[0]);
+    const LocalLight light = light_at(lamp, lit.state.points.col(p), lit.state.scene);
+    EXPECT_NEAR(static_cast<double>(light.l.row(0).dot(lit.state.normals.col(p))), expected, 1e-4);
+  }
+}
+
+TEST(NearLamps, AtInfiniteDistanceAreFarLamps) {
+  const NearlyLitSphere lit;
+  Lamp lamp = lit.truth[0];
+  lamp.inverse_distance = 0;
+  for (int p = 0; p < lit.images.pixels; p += 37) {
+    const LocalLight light = light_at(lamp, lit.state.points.col(p), lit.state.scene);
+    EXPECT_TRUE(light.l.isApprox(lamp.strength * lamp.direction.transpose(), 1e-6f));
+    EXPECT_EQ(light.phi, lamp.phi);
+  }
+}
+
+TEST(NearLamps, StartFromFarOnesWithTheirDirectionAndStrength) {
+  Lamp far;
+  far.l.row(0) = far.l.row(1) = far.l.row(2) = Eigen::RowVector3f(0.6f, 0, -0.8f);
+  far.phi << 0.1f, 0.2f, 0.3f;
+  const Lamp near = near_from_far(far, 1.5f);
+  EXPECT_TRUE(near.near);
+  EXPECT_TRUE(near.direction.isApprox(Eigen::Vector3f(0.6f, 0, -0.8f)));
+  EXPECT_TRUE(near.strength.isApprox(Eigen::Vector3f::Ones()));
+  EXPECT_EQ(near.phi, far.phi);
+  EXPECT_EQ(near.inverse_distance, 1.5f);
+}
+
+TEST(NearLamps, AreFoundFromTwiceTooFarAway) {
+  NearlyLitSphere lit;
+  for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance /= 2;
+  for (int i = 0; i < 10; ++i) lit.state.lamps = estimate_near_lamps(lit.images, lit.state, {});
+  for (size_t i = 0; i < lit.truth.size(); ++i) {
+    const Eigen::Vector3d expected = lamp_position(lit.truth[i], lit.state.scene);
+    EXPECT_LT((lamp_position(lit.state.lamps[i], lit.state.scene) - expected).norm(), 0.01) << "metres, lamp " << i;
+    EXPECT_TRUE(lit.state.lamps[i].strength.isApprox(lit.truth[i].strength, 0.02f));
+  }
+}
+
+TEST(NearLamps, OfFarLightMoveAway) {
+  NearlyLitSphere lit;
+  for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance = 0;
+  lit.images = test::images_of(lit.state);
+  for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance = 1;
+  for (int i = 0; i < 10; ++i) lit.state.lamps = estimate_near_lamps(lit.images, lit.state, {});
+  for (const Lamp& lamp : lit.state.lamps) EXPECT_LT(lamp.inverse_distance, 0.02f);
+}
+
+TEST(NearLamps, AtGivenPositionsKeepThemAndFitTheirStrength) {
+  NearlyLitSphere lit;
+  for (Lamp& lamp : lit.state.lamps) lamp.strength *= 0.5f;
+  NearLampOptions options;
+  options.fixed_positions = true;
+  options.steps = 10;
+  const std::vector<Lamp> found = estimate_near_lamps(lit.images, lit.state, options);
+  for (size_t i = 0; i < lit.truth.size(); ++i) {
+    EXPECT_TRUE(found[i].direction.isApprox(lit.truth[i].direction, 1e-6f));
+    EXPECT_FLOAT_EQ(found[i].inverse_distance, lit.truth[i].inverse_distance);
+    EXPECT_TRUE(found[i].strength.isApprox(lit.truth[i].strength, 1e-3f));
+  }
+}
+
+TEST(NearLamps, FarOnesAreLeftAlone) {
+  NearlyLitSphere lit;
+  lit.state.lamps[1] = test::far_lamp(0.3f, 0.2f);
+  EXPECT_EQ(estimate_near_lamps(lit.images, lit.state, {})[1].l, lit.state.lamps[1].l);
+}
+
+/// Deviations of the first lamp's distance: as found over ten draws of noise, and as the fit foretells it.
+struct Spread {
+  double seen = 0, told = 0, told_direction = 0;
+};
+
+Spread spread_under_noise(float deviation) {
+  NearlyLitSphere lit;
+  const Observations clean = lit.images;
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0, deviation);
+  Spread spread;
+  constexpr int kDraws = 10;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    lit.images = clean;
+    for (float& radiance : lit.images.radiance) radiance += noise(random);
+    lit.state.lamps = lit.truth;
+    for (int i = 0; i < 4; ++i) lit.state.lamps = estimate_near_lamps(lit.images, lit.state, {});
+    const double error = 1 / static_cast<double>(lit.state.lamps[0].inverse_distance) - 0.7;
+    spread.seen += error * error / kDraws;
+    const LampUncertainty told = near_lamp_uncertainty(lit.images, lit.state, {})[0];
+    spread.told += told.distance_deviation / kDraws;
+    spread.told_direction += told.direction_deviation / kDraws;
+  }
+  spread.seen = std::sqrt(spread.seen);
+  return spread;
+}
+
+TEST(NearLampUncertainty, FitsTheSpreadOverDrawsOfNoise) {
+  const Spread spread = spread_under_noise(0.01f);
+  EXPECT_GT(spread.told, 0.4 * spread.seen);
+  EXPECT_LT(spread.told, 2.5 * spread.seen);
+  EXPECT_GT(spread.told_direction, 0);
+  EXPECT_LT(spread.told_direction, 0.05);
+}
+
+TEST(NearLampUncertainty, GrowsWithTheNoise) {
+  EXPECT_NEAR(spread_under_noise(0.02f).told / spread_under_noise(0.01f).told, 2, 0.3);
+}
+
+}  // namespace
+}  // namespace rakelight

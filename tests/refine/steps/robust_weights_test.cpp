@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/steps/robust_weights.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/refine/exact_surface.h"
+
+namespace rakelight {
+namespace {
+
+constexpr float kSigma = 0.02f;
+
+/// A lit sphere whose images carry Gaussian noise of kSigma.
+struct NoisySphere {
+  test::ExactSurface sphere = test::exact_sphere();
+  SurfaceState state = test::exact_state(sphere, test::varied_albedo(sphere), test::far_lamps(), true);
+  Observations images = test::images_of(state);
+
+  NoisySphere() {
+    std::mt19937 random(1);
+    std::normal_distribution<float> noise(0, kSigma);
+    for (float& radiance : images.radiance) radiance += noise(random);
+  }
+
+  /// Brightens every fifth pixel of every image, as a highlight does.
+  void add_highlights() {
+    for (int i = 0; i < images.images; ++i)
+      for (int p = i; p < images.pixels; p += 5)
+        for (int c = 0; c < 3; ++c) images.radiance[test::sample_index(images, i, c, p)] += 0.5f;
+  }
+};
+
+TEST(ResidualScale, IsTheDeviationOfGaussianNoise) {
+  const NoisySphere noisy;
+  EXPECT_NEAR(residual_scale(noisy.images, noisy.state), static_cast<double>(kSigma), 0.05 * static_cast<double>(kSigma));
+}
+
+TEST(ResidualScale, IsHardlyMovedByHighlights) {
+  NoisySphere noisy;
+  noisy.add_highlights();
+  EXPECT_LT(residual_scale(noisy.images, noisy.state), 1.4 * static_cast<double>(kSigma));
+}
+
+TEST(ResidualScale, IgnoresClippedChannels) {
+  NoisySphere noisy;
+  for (size_t k = 0; k < noisy.images.radiance.size(); ++k) {
+    if (k % 5 < 3) noisy.images.radiance[k] = 9;
+    noisy.images.usable[k] = k % 5 >= 3;
+  }
+  EXPECT_NEAR(residual_scale(noisy.images, noisy.state), static_cast<double>(kSigma), 0.05 * static_cast<double>(kSigma));
+}
+
+TEST(CauchyWeights, AreLowForHighlightsAndHighForTheRest) {
+  NoisySphere noisy;
+  noisy.add_highlights();
+  const auto weights = cauchy_weights(noisy.images, noisy.state, static_cast<double>(kSigma));
+  double rest = 0;
+  int rest_count = 0;
+  for (int i = 0; i < noisy.images.images; ++i) {
+    for (int p = 0; p < noisy.images.pixels; ++p) {
+      const float weight = weights[static_cast<size_t>(i * noisy.images.pixels + p)];
+      if (p >= i && (p - i) % 5 == 0) {
+        EXPECT_LT(weight, 0.01f);
+      } else {
+        rest += static_cast<double>(weight);
+        ++rest_count;
+      }
+    }
+  }
+  EXPECT_GT(rest / rest_count, 0.5);
+}
+
+TEST(CauchyWeights, AreAHalfWhereTheResidualIsTheScale) {
+  NoisySphere noisy;
+  noisy.images = test::images_of(noisy.state);
+  for (int c = 0; c < 3; ++c) noisy.images.radiance[test::sample_index(noisy.images, 2, c, 11)] += kSigma;
+  const auto weights = cauchy_weights(noisy.images, noisy.state, static_cast<double>(kSigma));
+  EXPECT_LT(std::abs(weights[static_cast<size_t>(2 * noisy.images.pixels + 11)] - 0.5f), 1e-4f);
+  EXPECT_LT(std::abs(weights[static_cast<size_t>(2 * noisy.images.pixels + 12)] - 1.0f), 1e-4f);
+}
+
+TEST(CauchyWeights, JudgeASampleByItsUsableChannelsAlone) {
+  NoisySphere noisy;
+  noisy.images = test::images_of(noisy.state);
+  const size_t clipped = test::sample_index(noisy.images, 0, 1, 3);
+  noisy.images.radiance[clipped] = 9;
+  noisy.images.usable[clipped] = 0;
+  for (int c = 0; c < 3; ++c) noisy.images.usable[test::sample_index(noisy.images, 0, c, 4)] = 0;
+  const auto weights = cauchy_weights(noisy.images, noisy.state, static_cast<double>(kSigma));
+  EXPECT_LT(std::abs(weights[3] - 1.0f), 1e-4f);
+  EXPECT_EQ(weights[4], 0);
+}
+
+TEST(UsableWeights, AreOneWhereAnyChannelIsUsable) {
+  NoisySphere noisy;
+  for (int c = 0; c < 3; ++c) noisy.images.usable[test::sample_index(noisy.images, 0, c, 4)] = 0;
+  noisy.images.usable[test::sample_index(noisy.images, 0, 1, 5)] = 0;
+  const auto weights = usable_weights(noisy.images);
+  EXPECT_EQ(weights.size(), noisy.images.usable.size() / 3);
+  EXPECT_EQ(weights[4], 0);
+  EXPECT_EQ(weights[5], 1);
+}
+
+TEST(MedianRadiance, IsTheMiddleOfTheUsableSamples) {
+  NoisySphere noisy;
+  for (size_t k = 0; k < noisy.images.radiance.size(); ++k) {
+    noisy.images.radiance[k] = k % 3 == 0 ? 0.1f : k % 3 == 1 ? 0.3f : 0.9f;
+  }
+  EXPECT_NEAR(median_radiance(noisy.images), 0.3, 1e-6);
+  for (size_t k = 0; k < noisy.images.usable.size(); ++k) noisy.images.usable[k] = k % 3 == 0;
+  EXPECT_NEAR(median_radiance(noisy.images), 0.1, 1e-6);
+}
+
+}  // namespace
+}  // namespace rakelight
