@@ -29,6 +29,7 @@ constexpr const char* kOverview =
 
 constexpr const char* kFooter = R"(Examples:
   rakelight refine my-scan -o my-surface      refine a recorded stack
+  rakelight info my-scan                      what it holds
   rakelight refine --help                     every option of a command
 
 Exit codes:
@@ -109,15 +110,15 @@ int run(int argc, char** argv) {
   CLI::App program(kOverview, "rakelight");
   program.set_version_flag("--version", "rakelight " RAKELIGHT_VERSION);
   program.footer(kFooter);
-  add_import_command(program, exit_code);
-  add_evaluate_command(program, exit_code);
-  add_info_command(program, exit_code);
-  add_refine_command(program, exit_code);
-  add_verify_command(program, exit_code);
   program.require_subcommand(1);
+  add_refine_command(program, exit_code);
+  add_evaluate_command(program, exit_code);
 #ifdef RAKELIGHT_HAS_SIMULATE
   add_simulate_command(program, exit_code);
 #endif
+  add_import_command(program, exit_code);
+  add_info_command(program, exit_code);
+  add_verify_command(program, exit_code);
   const int failure = parse_and_run(program, argc, argv);
   return flush_stdout(failure != 0 ? failure : exit_code);
 }

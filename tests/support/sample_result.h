@@ -35,7 +35,7 @@ inline RefineResult sample_result() {
   LightEstimate light;
   light.id = "lamp \"7\"";
   light.frame_index = 3;
-  light.sh = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2};
+  light.sh_rgb << 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2;
   result.lights.push_back(light);
   IterationReport iteration;
   iteration.index = 1;
