@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From the synthetic rig to a refined surface: images that were not made by the model that inverts them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "refine/evaluate.h"
+#include "refine/refine.h"
+#include "simulate/simulate.h"
+
+namespace rakelight {
+namespace {
+
+SimulateOptions rig(Realism realism, SceneKind scene, int color_scale) {
+  SimulateOptions options = realism_options(realism);
+  options.width = 160;
+  options.height = 120;
+  options.color_scale = color_scale;
+  options.scene.kind = scene;
+  options.lamps.count = 8;
+  options.image.samples = 2;
+  return options;
+}
+
+/// Errors of the start and of the result.
+struct Errors {
+  Evaluation before, after;
+  RefineResult result;
+};
+
+Errors refine_simulated(const SimulateOptions& options, Preset preset) {
+  const Simulated scan = simulate_stack(options);
+  Errors errors;
+  errors.result = refine_depth(scan.stack, preset_options(preset));
+  const Camera& camera = errors.result.camera;
+  errors.before = evaluate(camera, errors.result.initial_depth, {}, scan.truth);
+  errors.after = evaluate(camera, errors.result.depth, errors.result.normals, scan.truth);
+  return errors;
+}
+
+/// Relief finer than these small images' pixels is part of the error, before and after.
+void expect_at_most(const Errors& errors, double rmse_share, double mae_share) {
+  EXPECT_LE(errors.after.rmse_mm, rmse_share * errors.before.rmse_mm) << "before: " << errors.before.rmse_mm;
+  EXPECT_LE(errors.after.mae_deg, mae_share * errors.before.mae_deg) << "before: " << errors.before.mae_deg;
+  EXPECT_EQ(errors.after.completeness, 1);
+}
+
+TEST(RefineSimulated, AVaseInIdealImagesComesOutSharpInBothPresets) {
+  const SimulateOptions options = rig(Realism::ideal, SceneKind::vase, 1);
+  expect_at_most(refine_simulated(options, Preset::robust), 0.9, 0.66);
+  expect_at_most(refine_simulated(options, Preset::paper), 0.9, 0.75);
+}
+
+TEST(RefineSimulated, AVaseWithShadowsHighlightsAndNoiseComesOutSharp) {
+  expect_at_most(refine_simulated(rig(Realism::real, SceneKind::vase, 1), Preset::robust), 0.9, 0.68);
+}
+
+TEST(RefineSimulated, ACoinComesOutSharpAtTwiceTheDepthsResolution) {
+  expect_at_most(refine_simulated(rig(Realism::real, SceneKind::coin, 2), Preset::robust), 1.0, 0.72);
+}
+
+TEST(RefineSimulated, NearLampsAreToldFromFarOnes) {
+  SimulateOptions options = rig(Realism::real, SceneKind::vase, 1);
+  options.lamps.near = true;
+  const Errors near = refine_simulated(options, Preset::robust);
+  EXPECT_THAT(near.result.message, testing::HasSubstr("near lamps"));
+  EXPECT_TRUE(near.result.lights.front().position_m.has_value());
+  expect_at_most(near, 1.0, 0.8);
+}
+
+}  // namespace
+}  // namespace rakelight
