@@ -10,6 +10,7 @@
 
 #include "refine/problem.h"
 #include "refine/refine.h"
+#include "refine/steps/uncertainty.h"
 #include "refine/surface_state.h"
 
 namespace rakelight {
@@ -21,6 +22,7 @@ struct MethodResult {
   std::string message;                   ///< one sentence on how it ended
   std::vector<std::string> warnings;
   std::map<std::string, double> quality; ///< named measures
+  Uncertainty uncertainty;               ///< empty where the method gives none
 };
 
 /// Called after each outer iteration with its number and the share done; throws Cancelled to stop.

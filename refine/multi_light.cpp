@@ -12,6 +12,7 @@
 #include "refine/steps/noise.h"
 #include "refine/steps/normals.h"
 #include "refine/steps/robust_weights.h"
+#include "refine/steps/uncertainty.h"
 #include "stack/errors.h"
 
 namespace rakelight {
@@ -150,7 +151,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
       result.message = "the depth system was singular at iteration " + std::to_string(t) + "; the state before it is given";
       break;
     }
-    if (settled(problem, options, result.iterations)) {
+    if (lamps.settled() && settled(problem, options, result.iterations)) {
       result.termination = Termination::converged;
       result.message = "settled after " + std::to_string(t) + " iterations";
       break;
@@ -161,6 +162,9 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   result.message += "; " + lamps.explanation();
+  result.uncertainty = sample_uncertainty(problem.grid, problem.corners, state.zeta, *solver,
+                                          std::sqrt(options.depth.noise_ratio) * noise.image,
+                                          result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
   result.quality["far_over_near_residual"] = lamps.far_over_near();
   result.quality["image_noise"] = noise.image;
   result.quality["depth_noise_log"] = noise.depth;

@@ -41,6 +41,7 @@ void for_each_option(Options& options, Visitor&& visit) {
   visit("min_iterations", options.min_iterations);
   visit("tolerance", options.tolerance);
   visit("threads", options.threads);
+  visit("uncertainty_samples", options.uncertainty_samples);
   visit("preprocess.bilateral_sigma_px", options.preprocess.bilateral_sigma_px);
   visit("preprocess.bilateral_sigma_noise", options.preprocess.bilateral_sigma_noise);
   visit("lamps.model", options.lamps.model);

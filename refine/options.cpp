@@ -54,6 +54,7 @@ RefineOptions preset_options(Preset preset, Method method) {
   options.depth.linearization = Linearization::fixed_point;
   options.depth.stencil = Stencil::forward;
   options.depth.max_backtracks = 0;
+  options.uncertainty_samples = 0;
   if (method != Method::multi_light) single_image_paper(options);
   return options;
 }

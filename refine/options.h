@@ -38,7 +38,7 @@ struct LampOptions {
   LampModel model = LampModel::automatic;
   LampPositions positions = LampPositions::estimated;
   double lobe_exponent = 1;  ///< emission cos^m about the axis towards the object: 0 isotropic, 1 Lambertian LED
-  int settle_after = 20;     ///< outer iterations after which near distances are no longer over-relaxed
+  int settle_after = 30;     ///< outer iterations after which near distances are no longer over-relaxed
 };
 
 /// Which samples are believed.
@@ -72,7 +72,7 @@ struct DepthOptions {
   /// With sensor_weight 0: lambda_z = noise_ratio * image error variance / variance of log depth, both measured on
   /// blocks (refine/steps/noise.h). Above 1 because errors of the lamp and reflectance model are correlated beyond a
   /// block and over images, while the sensor's are not.
-  double noise_ratio = 16;
+  double noise_ratio = 32;
   double smoothness = 0;  ///< lambda_l of Eq. (8), lambda_z2 of RGBD-Fusion; 0: no Laplacian (the tables' "ns")
   double floor = 0.5;  ///< weak pull of every refined pixel to the start, on log z (METHODS: super-resolution)
   Linearization linearization = Linearization::gauss_newton;
@@ -85,11 +85,12 @@ struct RefineOptions {
   Preset preset = Preset::robust;
   int frame = -1;           ///< single-image methods: index of the frame to use; -1: the first that fits
   int scale = 0;            ///< refined grid / depth grid, 1 to 4; 0: as fine as the colour images are
-  int max_iterations = 30;  ///< outer iterations
+  int max_iterations = 40;  ///< outer iterations
   int min_iterations = 14;  ///< robust: no stop before the lamp model is chosen and has taken effect
   double tolerance = 0.02;  ///< robust: stop when depth moves less than this share of a depth pixel's noise (rms);
                             ///< paper: epsilon, the relative change of the energy
   int threads = 0;          ///< 0: all; the result does not depend on it
+  int uncertainty_samples = 16;  ///< random surfaces drawn for the error bars (multi-light); 0: none
   PreprocessOptions preprocess;
   LampOptions lamps;
   TrustOptions trust;

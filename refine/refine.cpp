@@ -13,7 +13,7 @@
 #include "refine/rgb_ratio.h"
 #include "refine/rgbd_fusion.h"
 #include "refine/steps/near_lamps.h"
-#include "refine/steps/noise.h"
+#include "refine/steps/quality.h"
 #include "refine/steps/select_image.h"
 #include "stack/check.h"
 #include "stack/errors.h"
@@ -77,6 +77,16 @@ std::vector<LightEstimate> light_estimates(const Observations& images, const Sur
   return estimates;
 }
 
+/// Empty where the method gives no uncertainty.
+cv::Mat3f uncertainty_image(const RefineProblem& problem, const MethodResult& method) {
+  if (method.uncertainty.depth.size() == 0) return {};
+  Eigen::Matrix3Xf columns(3, problem.grid.size());
+  columns.row(0) = method.uncertainty.depth.cast<float>().transpose();
+  columns.row(1) = method.uncertainty.normal.cast<float>().transpose();
+  columns.row(2) = lit_images(problem.images, method.state).cast<float>().transpose();
+  return scatter3(problem.grid, columns);
+}
+
 RefineResult make_result(const RefineProblem& problem, MethodResult method, const RefineOptions& options) {
   const PixelGrid& grid = problem.grid;
   RefineResult result;
@@ -87,12 +97,16 @@ RefineResult make_result(const RefineProblem& problem, MethodResult method, cons
   result.normals = scatter3(grid, method.state.normals);
   result.albedo = scatter3(grid, method.state.albedo);
   result.inpainted = inpainted_on_grid(problem);
+  result.uncertainty = uncertainty_image(problem, method);
   result.lights = light_estimates(problem.images, method.state);
   result.iterations = std::move(method.iterations);
   result.termination = method.termination;
   result.message = std::move(method.message);
   result.warnings = std::move(method.warnings);
   result.quality = std::move(method.quality);
+  QualityReport quality = assess_quality(problem, method.state);
+  result.quality.merge(quality.measures);
+  result.warnings.insert(result.warnings.end(), quality.warnings.begin(), quality.warnings.end());
   result.quality["coverage"] = 1.0 - static_cast<double>(cv::countNonZero(result.inpainted)) / grid.size();
   result.quality["depth_noise_m"] = problem.sensor.noise_m;
   result.options = options;
@@ -134,7 +148,10 @@ RefineResult refine_depth(const LightStack& stack, const RefineOptions& options,
   };
   MethodResult method = run_method(problem, options, after_iteration);
   method.message += which_image;
-  return make_result(problem, std::move(method), options);
+  RefineResult result = make_result(problem, std::move(method), options);
+  const std::vector<std::string> doubts = recording_warnings(stack, problem.sensor);
+  result.warnings.insert(result.warnings.end(), doubts.begin(), doubts.end());
+  return result;
 }
 
 }  // namespace rakelight

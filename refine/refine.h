@@ -57,6 +57,8 @@ struct RefineResult {
   cv::Mat1f initial_depth; ///< the preprocessed sensor depth on the same grid, metres, NaN outside
   cv::Mat3f normals;       ///< camera frame, unit length, n_z < 0; NaN outside
   cv::Mat3f albedo;        ///< linear RGB, mean 1 a channel over the surface; NaN outside
+  cv::Mat3f uncertainty;   ///< one standard deviation of depth (m), of the normal (rad), and the number of images that
+                           ///< light the pixel; NaN outside; empty where the method gives none
   cv::Mat1b inpainted;     ///< 255 where the sensor gave no depth and the start was filled in
   std::vector<LightEstimate> lights;
   std::vector<IterationReport> iterations;

@@ -27,7 +27,7 @@ const FolderKind& result_kind() {
   static const FolderKind kind{"result",
                                kManifest,
                                {"depth.tiff", "depth.png", "initial_depth.tiff", "normals.tiff",
-                                "normals.png", "albedo.tiff", "albedo.png", "mesh.ply", "before_after.png"}};
+                                "normals.png", "uncertainty.tiff", "albedo.tiff", "albedo.png", "mesh.ply", "before_after.png"}};
   return kind;
 }
 
@@ -55,6 +55,7 @@ void write_result(const RefineResult& result, const fs::path& folder) {
   write_tiff(out.path() / "initial_depth.tiff", result.initial_depth);
   write_tiff(out.path() / "normals.tiff", result.normals);
   write_png(out.path() / "normals.png", normals_picture(result.normals));
+  if (!result.uncertainty.empty()) write_tiff(out.path() / "uncertainty.tiff", result.uncertainty);
   write_tiff(out.path() / "albedo.tiff", result.albedo);
   write_png(out.path() / "albedo.png", albedo_picture(result.albedo));
   write_file(out.path() / "mesh.ply", ply_bytes(mesh_of(result)));

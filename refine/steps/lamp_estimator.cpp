@@ -3,6 +3,7 @@
 #include "refine/steps/lamp_estimator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "refine/steps/lighting.h"
@@ -19,6 +20,7 @@ constexpr double kClearlyBetter = 1.02;        // far residual / near residual a
 /// The alternation of lamps and shape creeps towards the right distance: going twice as far halves the iterations.
 constexpr float kOverRelaxation = 2.0f;
 constexpr float kMaxInverseDistance = 10.0f;
+constexpr double kSettledChange = 0.005;  // of the distance, an iteration, median over the lamps
 
 Lamp at_position(const Lamp& lamp, const Eigen::Vector3d& position, const LampScene& scene) {
   const Eigen::Vector3f offset = position.cast<float>() - scene.center;
@@ -26,6 +28,19 @@ Lamp at_position(const Lamp& lamp, const Eigen::Vector3d& position, const LampSc
   result.direction = offset.normalized();
   result.inverse_distance = 1.0f / offset.norm();
   return result;
+}
+
+/// Relative, of the near lamps of an iteration.
+double median_distance_change(const std::vector<Lamp>& before, const std::vector<Lamp>& after) {
+  std::vector<double> changes;
+  for (size_t i = 0; i < after.size(); ++i) {
+    const auto old = static_cast<double>(before[i].inverse_distance);
+    if (after[i].near && old > 0) changes.push_back(std::abs(static_cast<double>(after[i].inverse_distance) / old - 1));
+  }
+  if (changes.empty()) return 0;
+  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
+  std::nth_element(changes.begin(), middle, changes.end());
+  return *middle;
 }
 
 std::string with_number(const char* format, double number) {
@@ -56,6 +71,7 @@ void LampEstimator::update(const Observations& images, SurfaceState& state, int 
       kappa = std::clamp(old + kOverRelaxation * (kappa - old), 0.0f, kMaxInverseDistance);
     }
   }
+  settled_ = median_distance_change(before, state.lamps) < kSettledChange;
   if (options_.model == LampModel::automatic && iteration == kChoice) choose(images, state);
 }
 
@@ -80,6 +96,7 @@ void LampEstimator::choose(const Observations& images, SurfaceState& state) {
   const double far_scale = residual_scale(images, far);
   far_over_near_ = near_scale > 0 ? far_scale / near_scale : 1;
   near_ = far_over_near_ > kClearlyBetter;
+  settled_ = settled_ || !near_;
   if (!near_) state.lamps = far.lamps;
   explanation_ = with_number(near_ ? "near lamps: the far model's residual is %.2f times as large"
                                    : "far lamps: the near model fits no better (far / near residual %.2f)",

@@ -24,6 +24,9 @@ class LampEstimator {
   /// Estimates the state's lamps for outer iteration `iteration` (from 1). Call it in order.
   void update(const Observations& images, SurfaceState& state, int iteration);
 
+  /// Whether the last update moved the lamps too little to matter.
+  bool settled() const { return settled_; }
+
   /// One sentence: the model used, and why.
   std::string explanation() const { return explanation_; }
 
@@ -36,6 +39,7 @@ class LampEstimator {
 
   LampOptions options_;
   bool near_ = false;
+  bool settled_ = true;
   double far_over_near_ = 0;
   std::string explanation_ = "far lamps: the near model was not tried";
 };

@@ -3,6 +3,7 @@
 #include "refine/steps/near_lamps.h"
 
 #include <Eigen/Dense>
+#include <array>
 #include <opencv2/core/utility.hpp>
 
 namespace rakelight {
@@ -26,9 +27,14 @@ struct LampFit {
   double samples = 0;
 };
 
-LampFit fit_equations(const Observations& images, const SurfaceState& state, int image, const Lamp& lamp, int stride,
-                      bool derivatives) {
+LampFit fit_equations(const Observations& images, const SurfaceState& state, int image, const Lamp& lamp,
+                      int pixels_used, bool derivatives) {
   LampFit fit;
+  const int stride = std::max(1, images.pixels / pixels_used);
+  std::array<Eigen::Matrix<double, 5, 5>, 3> A;
+  std::array<Eigen::Matrix<double, 5, 1>, 3> b;
+  for (auto& block : A) block.setZero();
+  for (auto& block : b) block.setZero();
   const auto tangents = tangents_of(lamp.direction);
   const float* weight = state.weight.data() + static_cast<size_t>(image) * static_cast<size_t>(images.pixels);
   for (int p = 0; p < images.pixels; p += stride) {
@@ -43,9 +49,20 @@ LampFit fit_equations(const Observations& images, const SurfaceState& state, int
       fit.energy += w * r * r;
       fit.samples += w;
       if (!derivatives) continue;
-      const Vector9 J = (rho * row.derivative.row(c)).cast<double>().transpose();
-      fit.A.selfadjointView<Eigen::Lower>().rankUpdate(J, w);
-      fit.b += w * r * J;
+      // A channel depends on the position and on its own strength and ambient share alone.
+      Eigen::Matrix<double, 5, 1> J;
+      J << row.derivative.row(c).head<3>().cast<double>().transpose(), static_cast<double>(row.derivative(c, 3 + c)), 1;
+      J *= static_cast<double>(rho);
+      A[static_cast<size_t>(c)].noalias() += w * J * J.transpose();
+      b[static_cast<size_t>(c)] += w * r * J;
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    const std::array<int, 5> unknowns{0, 1, 2, 3 + c, 6 + c};
+    for (int i = 0; i < 5; ++i) {
+      fit.b[unknowns[static_cast<size_t>(i)]] += b[static_cast<size_t>(c)][i];
+      for (int j = 0; j < 5; ++j)
+        fit.A(unknowns[static_cast<size_t>(i)], unknowns[static_cast<size_t>(j)]) += A[static_cast<size_t>(c)](i, j);
     }
   }
   return fit;
@@ -77,8 +94,7 @@ Lamp fit_lamp(const Observations& images, const SurfaceState& state, int image, 
   if (!lamp.near) return lamp;
   double damping = 1e-4;
   for (int step = 0; step < options.steps; ++step) {
-    LampFit fit = fit_equations(images, state, image, lamp, options.pixel_stride, true);
-    fit.A = Matrix9(fit.A.selfadjointView<Eigen::Lower>());
+    LampFit fit = fit_equations(images, state, image, lamp, options.pixels, true);
     const bool at_infinity = lamp.inverse_distance <= 0 && fit.b[2] < 0;
     lock_unknowns(fit, options.fixed_positions, options.fixed_positions || at_infinity);
     for (int attempt = 0; attempt < 4; ++attempt, damping *= 10) {
@@ -88,7 +104,7 @@ Lamp fit_lamp(const Observations& images, const SurfaceState& state, int image, 
       const Vector9 delta = damped.ldlt().solve(fit.b);
       if (!delta.allFinite()) continue;
       const Lamp candidate = moved(lamp, delta, options.max_inverse_distance);
-      if (fit_equations(images, state, image, candidate, options.pixel_stride, false).energy > fit.energy) continue;
+      if (fit_equations(images, state, image, candidate, options.pixels, false).energy > fit.energy) continue;
       lamp = candidate;
       damping = std::max(damping * 0.1, 1e-8);
       break;
@@ -147,8 +163,7 @@ std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, c
   std::vector<LampUncertainty> result(state.lamps.size());
   for (int i = 0; i < images.images; ++i) {
     const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
-    LampFit fit = fit_equations(images, state, i, lamp, options.pixel_stride, true);
-    fit.A = Matrix9(fit.A.selfadjointView<Eigen::Lower>());
+    LampFit fit = fit_equations(images, state, i, lamp, options.pixels, true);
     fit.A.diagonal().array() += 1e-12 * fit.A.trace() + 1e-30;
     const double variance = fit.energy / std::max(1.0, fit.samples - 9);
     const Eigen::Matrix3d position = (fit.A.inverse() * variance).topLeftCorner<3, 3>();

@@ -13,7 +13,7 @@ namespace rakelight {
 
 struct NearLampOptions {
   int steps = 3;                     ///< Levenberg-Marquardt steps a call
-  int pixel_stride = 4;              ///< every so many pixels are used
+  int pixels = 12000;                ///< about so many pixels are used, evenly spread: nine unknowns need no more
   float max_inverse_distance = 10;   ///< 1/m: no lamp is taken to stand nearer than this to the centre
   bool fixed_positions = false;      ///< fit strength and ambient share only
 };

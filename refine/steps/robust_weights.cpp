@@ -16,13 +16,13 @@ Eigen::Vector3f residual(const Observations& images, const SurfaceState& state, 
          Eigen::Vector3f(images.channel(i, 0)[p], images.channel(i, 1)[p], images.channel(i, 2)[p]);
 }
 
-/// Median of |value(image, pixel)| over usable samples and channels.
+/// Median of |value(image, pixel)| over usable samples and channels of images [first, last).
 template <class Value>
-double median_of_samples(const Observations& images, const Value& value) {
+double median_of_samples(const Observations& images, int first, int last, const Value& value) {
   constexpr int kSamplesAnImage = 20000;  // enough for a median good to a percent
   const int step = std::max(1, images.pixels / kSamplesAnImage);
   std::vector<float> sizes;
-  for (int i = 0; i < images.images; ++i) {
+  for (int i = first; i < last; ++i) {
     for (int p = 0; p < images.pixels; p += step) {
       const Eigen::Vector3f v = value(i, p);
       for (int c = 0; c < 3; ++c)
@@ -38,11 +38,17 @@ double median_of_samples(const Observations& images, const Value& value) {
 }  // namespace
 
 double residual_scale(const Observations& images, const SurfaceState& state) {
-  return 1.4826 * median_of_samples(images, [&](int i, int p) { return residual(images, state, i, p); });
+  const auto value = [&](int i, int p) { return residual(images, state, i, p); };
+  return 1.4826 * median_of_samples(images, 0, images.images, value);
+}
+
+double residual_scale_of_image(const Observations& images, const SurfaceState& state, int image) {
+  const auto value = [&](int i, int p) { return residual(images, state, i, p); };
+  return 1.4826 * median_of_samples(images, image, image + 1, value);
 }
 
 double median_radiance(const Observations& images) {
-  return median_of_samples(images, [&](int i, int p) {
+  return median_of_samples(images, 0, images.images, [&](int i, int p) {
     return Eigen::Vector3f(images.channel(i, 0)[p], images.channel(i, 1)[p], images.channel(i, 2)[p]);
   });
 }

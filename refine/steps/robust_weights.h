@@ -13,6 +13,9 @@ namespace rakelight {
 /// sigma = 1.4826 median over usable samples of |rho S - I|, linear radiance.
 double residual_scale(const Observations& images, const SurfaceState& state);
 
+/// The same of one image.
+double residual_scale_of_image(const Observations& images, const SurfaceState& state, int image);
+
 /// Median over usable samples of the radiance: the brightness that errors are held against.
 double median_radiance(const Observations& images);
 

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far each pixel's depth and normal can be trusted.
+//
+// Near its minimum the energy is delta' H delta, so depth errors are normal with covariance s^2 inv(H), s^2 the variance of a
+// residual. The diagonal of inv(H) is not computed: samples L'^-1 xi of that distribution are cheap once H = L L' is there, and
+// their spread, smoothed over neighbours, is what is wanted - for normals too, which depend on differences of depth.
+#pragma once
+
+#include "refine/pixel_grid.h"
+#include "refine/solver/depth_solver.h"
+#include "refine/steps/normals.h"
+
+namespace rakelight {
+
+/// One standard deviation a pixel.
+struct Uncertainty {
+  Eigen::VectorXd depth;   ///< metres
+  Eigen::VectorXd normal;  ///< radians, root mean square angle
+};
+
+/// @param solver has solved the last system  @param residual_deviation s above  @param samples 0: an empty result
+/// The samples are the same at every call: the result is reproducible.
+Uncertainty sample_uncertainty(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& zeta,
+                               const DepthSolver& solver, double residual_deviation, int samples);
+
+}  // namespace rakelight
