@@ -20,7 +20,7 @@ constexpr double kClearlyBetter = 1.02;        // far residual / near residual a
 /// The alternation of lamps and shape creeps towards the right distance: going twice as far halves the iterations.
 constexpr float kOverRelaxation = 2.0f;
 constexpr float kMaxInverseDistance = 10.0f;
-constexpr double kSettledChange = 0.005;  // of the distance, an iteration, median over the lamps
+constexpr double kSettledChange = 0.001;  // of the distance, an iteration, median over the lamps
 
 Lamp at_position(const Lamp& lamp, const Eigen::Vector3d& position, const LampScene& scene) {
   const Eigen::Vector3f offset = position.cast<float>() - scene.center;
