@@ -44,7 +44,7 @@ TEST(SharedData, IgeaComplicatedInPresetPaper) {
 
 TEST(SharedData, IgeaSimple) {
   RAKELIGHT_NEED_SHARED_DATA(folder, "table2/igea-simple-sh1");
-  expect_errors_at_most(folder, Preset::robust, 1.52, 1.30);  // wanted: 1.45 mm
+  expect_errors_at_most(folder, Preset::robust, 1.45, 1.30);
 }
 
 TEST(SharedData, IgeaPattern) {
@@ -69,7 +69,7 @@ TEST(SharedData, IgeaComplicatedWithShadowsAndHighlights) {
 
 TEST(SharedData, IgeaPatternUnderNearLamps) {
   RAKELIGHT_NEED_SHARED_DATA(folder, "table2/igea-pattern-near");
-  const RefineResult result = expect_errors_at_most(folder, Preset::robust, 1.92, 2.7);  // wanted: 1.8 mm
+  const RefineResult result = expect_errors_at_most(folder, Preset::robust, 1.8, 2.7);
   for (const LightEstimate& light : result.lights) EXPECT_TRUE(light.position_m.has_value()) << light.id;
 }
 
