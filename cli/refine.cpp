@@ -160,7 +160,8 @@ void add_refine_command(CLI::App& program, int& exit_code) {
       ->add_option("--frame", arguments->frame,
                    "Single-image methods: index of the frame to use; default: the first that fits")
       ->check(CLI::Range(0, 1000000));
-  command->add_flag("--ns", arguments->no_smoothness, "Single-image methods: no Laplacian smoothness of the depth");
+  command->add_flag("--ns", arguments->no_smoothness,
+                    "Single-image methods: no Laplacian smoothness of the depth");
   command->add_flag("--json", arguments->json, "Print one JSON object on stdout and nothing else there");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

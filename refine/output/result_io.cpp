@@ -24,10 +24,11 @@ constexpr const char* kManifest = "result.json";
 constexpr std::uint64_t kMaxManifestBytes = 64 << 20;
 
 const FolderKind& result_kind() {
-  static const FolderKind kind{"result",
-                               kManifest,
-                               {"depth.tiff", "depth.png", "initial_depth.tiff", "normals.tiff",
-                                "normals.png", "uncertainty.tiff", "albedo.tiff", "albedo.png", "mesh.ply", "before_after.png"}};
+  static const FolderKind kind{
+      "result",
+      kManifest,
+      {"depth.tiff", "depth.png", "initial_depth.tiff", "normals.tiff", "normals.png", "uncertainty.tiff",
+       "albedo.tiff", "albedo.png", "mesh.ply", "before_after.png"}};
   return kind;
 }
 
