@@ -77,8 +77,8 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
     return report(kIo, program, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return report(kIo, program, error.what());
-  } catch (const Cancelled&) {
-    return report(kCancelled, program, "interrupted; nothing was written");
+  } catch (const Cancelled& cancelled) {
+    return report(kCancelled, program, cancelled.what());
   } catch (const std::system_error& error) {
     return report(out_of_resources(error.code()) ? kFailure : kDevice, program, error.what());
   } catch (const std::bad_alloc&) {
@@ -113,6 +113,7 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   add_refine_command(program, exit_code);
   add_evaluate_command(program, exit_code);
+  add_table_command(program, exit_code);
 #ifdef RAKELIGHT_HAS_SIMULATE
   add_simulate_command(program, exit_code);
 #endif

@@ -36,7 +36,8 @@ class IoError : public std::runtime_error {
 /// The caller asked to stop (exit 130).
 class Cancelled : public std::runtime_error {
  public:
-  Cancelled() : std::runtime_error("cancelled") {}
+  explicit Cancelled(const std::string& kept = "nothing was written")
+      : std::runtime_error("interrupted; " + kept) {}
 };
 
 }  // namespace rakelight

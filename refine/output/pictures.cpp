@@ -20,16 +20,6 @@ constexpr int kCaptionHeight = 36;
 const cv::Vec3f kRakingLamp = cv::normalize(cv::Vec3f(-1.0f, -0.7f, -0.55f));
 constexpr float kRakingShare = 0.85f, kHeadShare = 0.15f;
 
-cv::Rect object_box(const cv::Mat1f& depth) {
-  cv::Mat1b valid(depth.size());
-  std::transform(depth.begin(), depth.end(), valid.begin(),
-                 [](float z) { return static_cast<uchar>(std::isfinite(z) ? 255 : 0); });
-  const cv::Rect box = cv::boundingRect(valid);
-  const int margin = 4;
-  const cv::Rect wide(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin);
-  return box.empty() ? cv::Rect({0, 0}, depth.size()) : wide & cv::Rect({0, 0}, depth.size());
-}
-
 cv::Mat3b shaded(const cv::Mat3f& normals) {
   cv::Mat3b picture;
   cv::cvtColor(raking_light(normals), picture, cv::COLOR_GRAY2RGB);
@@ -64,6 +54,16 @@ cv::Mat3b arranged(const std::array<cv::Mat3b, 4>& panels, bool tall) {
 }
 
 }  // namespace
+
+cv::Rect object_box(const cv::Mat1f& depth) {
+  cv::Mat1b valid(depth.size());
+  std::transform(depth.begin(), depth.end(), valid.begin(),
+                 [](float z) { return static_cast<uchar>(std::isfinite(z) ? 255 : 0); });
+  const cv::Rect box = cv::boundingRect(valid);
+  const int margin = 4;
+  const cv::Rect wide(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin);
+  return box.empty() ? cv::Rect({0, 0}, depth.size()) : wide & cv::Rect({0, 0}, depth.size());
+}
 
 cv::Mat1b raking_light(const cv::Mat3f& normals) {
   cv::Mat1b picture(normals.size(), static_cast<uchar>(0));
