@@ -38,6 +38,7 @@ constexpr const char* kFooter = R"(Examples:
   rakelight refine my-scan -o out --scale 1               on the depth camera's own grid
   rakelight refine my-scan -o out --preset paper          the paper to the letter
   rakelight refine my-scan -o out --mask object.png       another mask; 'auto': every pixel with depth
+  rakelight refine my-scan -o out --response auto         find out whether colour values are linear
   rakelight refine my-scan -o out --config tuned.toml     parameters by their names in result.json
   rakelight refine my-scan -o out --json | jq .quality    the summary for scripts)";
 
@@ -63,6 +64,7 @@ RefineOptions options_of(const Arguments& arguments) {
   options.scale = arguments.scale.value_or(options.scale);
   options.max_iterations = arguments.iterations.value_or(options.max_iterations);
   options.frame = arguments.frame.value_or(options.frame);
+  options.estimate_response = options.estimate_response || arguments.response == "auto";
   if (arguments.no_smoothness) options.depth.smoothness = 0;
   options.threads = arguments.threads.value_or(options.threads);
   options.lamps.model = value_named<LampModel>(arguments.lamps).value_or(options.lamps.model);
@@ -71,7 +73,8 @@ RefineOptions options_of(const Arguments& arguments) {
 
 LightStack stack_of(const Arguments& arguments) {
   LightStack stack = read_stack(arguments.stack);
-  if (arguments.response) stack.color_response = parse_color_response(*arguments.response);
+  if (arguments.response && *arguments.response != "auto")
+    stack.color_response = parse_color_response(*arguments.response);
   if (arguments.mask) stack.mask = *arguments.mask == "auto" ? cv::Mat1b() : read_mask(*arguments.mask);
   return stack;
 }
@@ -148,8 +151,9 @@ void add_refine_command(CLI::App& program, int& exit_code) {
       ->type_name("FILE|auto");
   command
       ->add_option("--response", arguments->response,
-                   "What colour values mean, instead of what the stack says")
-      ->type_name("linear|srgb|GAMMA");
+                   "What colour values mean, instead of what the stack says; auto finds the exponent that\n"
+                   "agrees with the lighting model, and keeps what the stack says where it is not sure")
+      ->type_name("linear|srgb|GAMMA|auto");
   command->add_option("--iterations", arguments->iterations, "Outer iterations at most")
       ->check(CLI::Range(1, 1000));
   command->add_option("--config", arguments->config, "Parameters from a TOML file; options here override it")

@@ -36,6 +36,7 @@ void for_each_option(Options& options, Visitor&& visit) {
   visit("method", options.method);
   visit("preset", options.preset);
   visit("frame", options.frame);
+  visit("estimate_response", options.estimate_response);
   visit("scale", options.scale);
   visit("max_iterations", options.max_iterations);
   visit("min_iterations", options.min_iterations);

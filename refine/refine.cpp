@@ -134,12 +134,38 @@ MethodResult run_method(const RefineProblem& problem, const RefineOptions& optio
   throw UsageError("unknown method");
 }
 
+/// The stack with what its images say about its colour values, where that is asked for.
+struct Decoding {
+  LightStack stack;
+  std::optional<ResponseEstimate> estimate;
+};
+
+Decoding decide_response(const LightStack& stack, const RefineOptions& options, const ProgressCallback& progress) {
+  if (!options.estimate_response) return {stack, {}};
+  Decoding decoding{stack, estimate_response(stack, options, [&](double fraction) {
+                      report(progress, "finding the colour response", kPreparation * fraction, 0);
+                      return true;
+                    })};
+  decoding.stack.color_response = decoding.estimate->used;
+  return decoding;
+}
+
+void note_response(const Decoding& decoding, RefineResult& result) {
+  result.color_response = decoding.stack.color_response;
+  result.response_estimate = decoding.estimate;
+  if (!decoding.estimate) return;
+  result.message += "; " + decoding.estimate->message;
+  if (!decoding.estimate->sure) result.warnings.push_back(decoding.estimate->message);
+}
+
 }  // namespace
 
-RefineResult refine_depth(const LightStack& stack, const RefineOptions& options, const ProgressCallback& progress) {
+RefineResult refine_depth(const LightStack& recorded, const RefineOptions& options, const ProgressCallback& progress) {
   const ThreadCount threads(options.threads);
   report(progress, "preparing", 0.0, 0);
-  check_stack(stack);
+  check_stack(recorded);
+  const Decoding decoding = decide_response(recorded, options, progress);
+  const LightStack& stack = decoding.stack;
   RefineProblem problem = make_problem(stack, options);
   const std::string which_image = select_images(stack, options, problem);
   report(progress, "refining", kPreparation, 0);
@@ -149,6 +175,7 @@ RefineResult refine_depth(const LightStack& stack, const RefineOptions& options,
   MethodResult method = run_method(problem, options, after_iteration);
   method.message += which_image;
   RefineResult result = make_result(problem, std::move(method), options);
+  note_response(decoding, result);
   const std::vector<std::string> doubts = recording_warnings(stack, problem.sensor);
   result.warnings.insert(result.warnings.end(), doubts.begin(), doubts.end());
   return result;

@@ -10,6 +10,7 @@
 #include "refine/option_fields.h"
 #include "refine/output/images.h"
 #include "stack/camera_json.h"
+#include "stack/color_response.h"
 
 namespace rakelight {
 namespace {
@@ -69,6 +70,15 @@ Json list_of(const std::vector<T>& items) {
   return list;
 }
 
+/// @return null without an estimate
+Json json_of(const std::optional<ResponseEstimate>& estimate) {
+  if (!estimate) return nullptr;
+  return {{"gamma", estimate->gamma},
+          {"deviation", estimate->deviation},
+          {"sure", estimate->sure},
+          {"message", estimate->message}};
+}
+
 Json versions() {
   const auto eigen = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                      std::to_string(EIGEN_MINOR_VERSION);
@@ -102,6 +112,8 @@ std::string result_json(const RefineResult& result) {
                      {"scale", result.scale},
                      {"depth_png_unit_m", depth_unit(result.depth)},
                      {"albedo_png_white", albedo_white(result.albedo)},
+                     {"color_response", to_string(result.color_response)},
+                     {"response_estimate", json_of(result.response_estimate)},
                      {"quality", result.quality},
                      {"lights", list_of(result.lights)},
                      {"iterations", list_of(result.iterations)},
