@@ -121,6 +121,18 @@ TEST_F(Refine, RefusesAStackThatIsNotThere) {
   expect_refused(run({"refine", folder_ / "absent", "-o", out()}), 3, "absent");
 }
 
+TEST_F(Refine, LooksForTheColourResponseAndSaysWhatItFound) {
+  const Ran ran = refine({"--response", "auto", "--scale", "1"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("response: "));
+  const auto result = manifest();
+  EXPECT_EQ(result.at("options").at("estimate_response"), true);
+  EXPECT_EQ(result.at("color_response"), "linear");  // found to agree, or not sure and kept
+  const auto& estimate = result.at("response_estimate");
+  EXPECT_EQ(estimate.at("message").get<std::string>().rfind("response: ", 0), 0U);
+  EXPECT_GT(estimate.at("deviation"), 0);
+}
+
 TEST_F(Refine, TakesAnotherMask) {
   cv::Mat1b mask(bump_stack().mask.size(), uchar{0});
   mask(cv::Rect(24, 18, 40, 30)).setTo(255);
