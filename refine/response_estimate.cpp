@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "refine/steps/response_fit.h"
 #include "stack/color_response.h"
@@ -88,6 +89,7 @@ class Search {
     estimate.gamma = best.gamma;
     const double spread = std::sqrt(squares * (kGroups - 1) / kGroups);
     estimate.deviation = best.gamma * std::hypot(spread, kModelBias);
+    if (at_end) estimate.deviation = std::numeric_limits<double>::quiet_NaN();
     estimate.sure = !at_end && estimate.deviation < kSure * best.gamma;
     return estimate;
   }
@@ -133,6 +135,7 @@ class Search {
 };
 
 std::string numbers(const ResponseEstimate& estimate) {
+  if (std::isnan(estimate.deviation)) return "no exponent fits clearly best";
   char text[64];
   std::snprintf(text, sizeof text, "gamma %.2f +- %.2f", estimate.gamma, estimate.deviation);
   return text;

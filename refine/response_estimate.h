@@ -15,7 +15,8 @@ namespace rakelight {
 struct ResponseEstimate {
   double gamma = 1;  ///< radiance = value^gamma
   double deviation =
-      0;  ///< one standard deviation of it: spread over images left out in turn, and the model's own bias
+      0;  ///< one standard deviation of it: spread over images left out in turn, and the model's own
+          ///< bias; NaN where no exponent tried is clearly the best
   bool sure = false;  ///< the images determine it
   ColorResponse
       used;  ///< what to decode with: the estimate if it is sure and contradicts the stack, else the stack's
