@@ -6,10 +6,10 @@
 
 #include "refine/shading.h"
 #include "refine/steps/albedo.h"
-#include "refine/steps/gradient_rows.h"
 #include "refine/steps/laplacian.h"
 #include "refine/steps/lighting.h"
 #include "refine/steps/paper_albedo.h"
+#include "refine/steps/paper_rows.h"
 
 namespace rakelight {
 namespace {
@@ -18,7 +18,8 @@ Observations grey(const Observations& image) {
   Observations out = image;
   const auto pixels = static_cast<size_t>(image.pixels);
   for (size_t p = 0; p < pixels; ++p) {
-    const float mean = (image.radiance[p] + image.radiance[p + pixels] + image.radiance[p + 2 * pixels]) / 3.0f;
+    const float mean =
+        (image.radiance[p] + image.radiance[p + pixels] + image.radiance[p + 2 * pixels]) / 3.0f;
     for (size_t c = 0; c < 3; ++c) out.radiance[c * pixels + p] = mean;
   }
   return out;
@@ -26,27 +27,6 @@ Observations grey(const Observations& image) {
 
 Eigen::VectorXd channel_of(const Observations& image, int c) {
   return Eigen::Map<const Eigen::VectorXf>(image.channel(0, c), image.pixels).cast<double>();
-}
-
-/// Eq. (4) with slopes k grad z.
-Eigen::Matrix3Xf orthographic_normals(const CornerList& corners, const Eigen::VectorXd& z, double k) {
-  Eigen::Matrix3Xf normals(3, z.size());
-  for (int p = 0; p < static_cast<int>(z.size()); ++p) {
-    const Eigen::Vector2d g = k * forward_gradient(corners, p, z);
-    normals.col(p) = Eigen::Vector3d(g.x(), g.y(), -1).normalized().cast<float>();
-  }
-  return normals;
-}
-
-/// Eq. (14): rho l.n with the normaliser d of the last depth.
-std::vector<GradientRow> shading_rows(const CornerList& corners, const Eigen::Vector4d& s, const Eigen::VectorXd& rho,
-                                      const Eigen::VectorXd& I, const Eigen::VectorXd& z, double k) {
-  std::vector<GradientRow> rows;
-  for (int p = 0; p < static_cast<int>(z.size()); ++p) {
-    const double d = std::sqrt(1 + (k * forward_gradient(corners, p, z)).squaredNorm());
-    rows.push_back({p, rho[p] * k / d * s.head<2>(), I[p] - rho[p] * s[3] + rho[p] * s[2] / d});
-  }
-  return rows;
 }
 
 }  // namespace
@@ -62,23 +42,21 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
   Eigen::VectorXd z = z0;
 
   state.normals = orthographic_normals(problem.corners, z, k);
-  state.lamps = estimate_far_lamps(image, state);                                                   // Eq. (9)
+  state.lamps = estimate_far_lamps(image, state);  // Eq. (9)
   Eigen::Vector4d s;
   s << state.lamps[0].l.row(0).cast<double>().transpose(), static_cast<double>(state.lamps[0].phi[0]);
-  const Eigen::VectorXd S =
-      (state.normals.cast<double>().transpose() * s.head<3>()).array().matrix() + Eigen::VectorXd::Constant(z.size(), s[3]);
+  const Eigen::VectorXd S = (state.normals.cast<double>().transpose() * s.head<3>()).array().matrix() +
+                            Eigen::VectorXd::Constant(z.size(), s[3]);
   Eigen::VectorXd rho = Eigen::VectorXd::Ones(z.size());
   const auto W = anisotropic_laplacian(problem.grid, I, z0, options.albedo);
-  bool solved = solve_albedo(S, I, W, options.albedo.smoothness, rho);                              // Eq. (10)
+  bool solved = solve_albedo(S, I, W, options.albedo.smoothness, rho);  // Eq. (10)
   Eigen::VectorXd beta = Eigen::VectorXd::Zero(z.size());
   if (model.local_term && solved) {
-    // min |beta - (I - rho S)|^2 + b2 |beta|^2 + b1 |W beta|^2: Eq. (10)'s form with S^2 = 1 + b2.
-    const double root = std::sqrt(1 + options.albedo.local_weight);
-    solved = solve_albedo(Eigen::VectorXd::Constant(z.size(), root), (I - rho.cwiseProduct(S)) / root, W,
-                          options.albedo.local_smoothness, beta);
+    solved = solve_local_term(I - rho.cwiseProduct(S), W, options.albedo, beta);
   }
 
-  const Smoothness smoothness(uncut_laplacian(problem.grid), options.depth.smoothness * (model.slope_smoothness ? k : 1.0));
+  const Smoothness smoothness(uncut_laplacian(problem.grid),
+                              options.depth.smoothness * (model.slope_smoothness ? k : 1.0));
   SparseCholesky solver;
   double best = 0;
   for (int t = 1; solved && t <= options.max_iterations; ++t) {
@@ -93,13 +71,15 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
     if (!solved) break;
     depth.rows = shading_rows(problem.corners, s, rho, I - beta, next, k);
     report.energy = gradient_energy(depth, next);
-    report.depth_change_mm = 1e3 * model.unit_m * std::sqrt((next - z).squaredNorm() / static_cast<double>(z.size()));
+    report.depth_change_mm =
+        1e3 * model.unit_m * std::sqrt((next - z).squaredNorm() / static_cast<double>(z.size()));
     report.sensor_weight = options.depth.sensor_weight;
     result.iterations.push_back(report);
     after_iteration(t, static_cast<double>(t) / options.max_iterations);
-    if (report.energy >= best) {                                                                    // Alg. 1, line 4
+    if (report.energy >= best) {  // Alg. 1, line 4
       result.termination = Termination::converged;
-      result.message = "the energy no longer fell at iteration " + std::to_string(t) + "; the state before it is given";
+      result.message = "stopped as Alg. 1 does: its energy no longer fell at iteration " + std::to_string(t) +
+                       "; the state before it is given";
       break;
     }
     best = report.energy;

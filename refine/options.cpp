@@ -10,11 +10,13 @@ namespace {
 
 /// Robust defaults of the methods that use one image.
 void single_image_defaults(RefineOptions& options) {
-  options.max_iterations = 12;
+  options.max_iterations = 8;
   options.min_iterations = 4;
   options.trust.attached_shadows = false;
-  options.depth.sensor_weight = 100;
-  options.depth.smoothness = 0.1;
+  options.albedo.palette_weight = 100;
+  options.depth.noise_ratio = 0.3;
+  // The fusion methods have one equation a pixel for two slopes: more is left to smoothness.
+  options.depth.smoothness = options.method == Method::rgb_ratio ? 100 : 700;
 }
 
 /// Table I.

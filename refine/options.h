@@ -73,7 +73,9 @@ struct DepthOptions {
   /// blocks (refine/steps/noise.h). Above 1 because errors of the lamp and reflectance model are correlated beyond a
   /// block and over images, while the sensor's are not.
   double noise_ratio = 32;
-  double smoothness = 0;  ///< lambda_l of Eq. (8), lambda_z2 of RGBD-Fusion; 0: no Laplacian (the tables' "ns")
+  /// lambda_l of Eq. (8), lambda_z2 of RGBD-Fusion; 0: no Laplacian (the tables' "ns"). Robust single-image methods: on
+  /// the change of tilt from pixel to pixel, against one shading sample's error variance, 1/rad^2 (refine/shading.h)
+  double smoothness = 0;
   double floor = 0.5;  ///< weak pull of every refined pixel to the start, on log z (METHODS: super-resolution)
   Linearization linearization = Linearization::gauss_newton;
   Stencil stencil = Stencil::symmetric;

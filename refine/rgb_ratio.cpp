@@ -2,40 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/rgb_ratio.h"
 
-#include <array>
 #include <cmath>
 
 #include "refine/shading.h"
 #include "refine/steps/albedo.h"
-#include "refine/steps/gradient_rows.h"
 #include "refine/steps/laplacian.h"
 #include "refine/steps/lighting.h"
 #include "refine/steps/paper_albedo.h"
+#include "refine/steps/paper_rows.h"
 
 namespace rakelight {
 namespace {
 
-constexpr std::array<std::array<int, 2>, 3> kPairs{{{0, 1}, {1, 2}, {2, 0}}};
-
 Eigen::VectorXd channel_of(const Observations& image, int c) {
   return Eigen::Map<const Eigen::VectorXf>(image.channel(0, c), image.pixels).cast<double>();
-}
-
-/// Eq. (22): v . n = 0 for each pair of channels; n's length cancels, which leaves v . (f zeta_x, ..) = v3 in zeta.
-std::vector<GradientRow> ratio_rows(const PixelGrid& grid, const Observations& image, const SurfaceState& state) {
-  const Lamp& lamp = state.lamps.front();
-  std::vector<GradientRow> rows;
-  for (int p = 0; p < image.pixels; ++p) {
-    const auto frame = normal_frame(grid, p);
-    const Eigen::Vector3f rho = state.albedo.col(p);
-    for (const auto& [c, k] : kPairs) {
-      const Eigen::Vector3f v =
-          rho[k] * (image.channel(0, c)[p] - rho[c] * lamp.phi[c]) * lamp.l.row(k).transpose() -
-          rho[c] * (image.channel(0, k)[p] - rho[k] * lamp.phi[k]) * lamp.l.row(c).transpose();
-      rows.push_back({p, (frame.jacobian().transpose() * v).cast<double>(), static_cast<double>(v[2])});
-    }
-  }
-  return rows;
 }
 
 /// The last term of Eq. (17).
@@ -44,7 +24,8 @@ double photometric_energy(const Observations& image, const SurfaceState& state) 
   for (int p = 0; p < image.pixels; ++p) {
     const LocalLight light{state.lamps.front().l, state.lamps.front().phi};
     const Eigen::Vector3f S = shading(light, state.normals.col(p), false);
-    for (int c = 0; c < 3; ++c) sum += static_cast<double>(std::pow(state.albedo(c, p) * S[c] - image.channel(0, c)[p], 2.0f));
+    for (int c = 0; c < 3; ++c)
+      sum += static_cast<double>(std::pow(state.albedo(c, p) * S[c] - image.channel(0, c)[p], 2.0f));
   }
   return sum;
 }
@@ -53,7 +34,10 @@ double photometric_energy(const Observations& image, const SurfaceState& state) 
 bool start_albedo(const RefineProblem& problem, const RefineOptions& options, SurfaceState& state) {
   for (int c = 0; c < 3; ++c) {
     const Eigen::VectorXd I = channel_of(problem.images, c);
-    const Eigen::VectorXd S = ((state.lamps[0].l.row(c) * state.normals).array() + state.lamps[0].phi[c]).matrix().transpose().cast<double>();
+    const Eigen::VectorXd S = ((state.lamps[0].l.row(c) * state.normals).array() + state.lamps[0].phi[c])
+                                  .matrix()
+                                  .transpose()
+                                  .cast<double>();
     const auto W = anisotropic_laplacian(problem.grid, I, state.zeta.array().exp(), options.albedo);
     Eigen::VectorXd rho;
     if (!solve_albedo(S, I, W, options.albedo.smoothness, rho)) return false;
@@ -66,7 +50,8 @@ bool start_albedo(const RefineProblem& problem, const RefineOptions& options, Su
 bool diffuse(const RefineProblem& problem, const AlbedoOptions& options, SurfaceState& state) {
   for (int c = 0; c < 3; ++c) {
     Eigen::VectorXd P = state.albedo.row(c).transpose().cast<double>();
-    if (!diffuse_albedo(problem.grid, channel_of(problem.images, c), options.ratio_smoothness, options.ratio_sigma, P))
+    if (!diffuse_albedo(problem.grid, channel_of(problem.images, c), options.ratio_smoothness,
+                        options.ratio_sigma, P))
       return false;
     state.albedo.row(c) = P.cast<float>().transpose();
   }
@@ -89,15 +74,16 @@ MethodResult ratio_as_printed(const RefineProblem& problem, const RefineOptions&
   for (int t = 1; solved && t <= options.max_iterations; ++t) {
     IterationReport report;
     report.index = t;
-    if (!(solved = diffuse(problem, options.albedo, state))) break;                               // Eq. (20)
+    if (!(solved = diffuse(problem, options.albedo, state))) break;  // Eq. (20)
     normalize_albedo(state);
     GradientProblem depth{problem.corners, ratio_rows(problem.grid, problem.images, state),
                           options.depth.sensor_weight, problem.prior.start, smoothness};
-    report.energy_before_depth = gradient_energy(depth, state.zeta) + photometric_energy(problem.images, state);
+    report.energy_before_depth =
+        gradient_energy(depth, state.zeta) + photometric_energy(problem.images, state);
     const Eigen::VectorXd before = state.zeta;
-    if (!(solved = solve_gradient_rows(depth, solver, state.zeta))) break;                        // Eq. (24)
+    if (!(solved = solve_gradient_rows(depth, solver, state.zeta))) break;  // Eq. (24)
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
-    state.lamps = estimate_far_lamps(problem.images, state);                                      // Eq. (9)
+    state.lamps = estimate_far_lamps(problem.images, state);  // Eq. (9)
     depth.rows = ratio_rows(problem.grid, problem.images, state);
     report.energy = gradient_energy(depth, state.zeta) + photometric_energy(problem.images, state);
     report.depth_change_mm =
@@ -107,10 +93,11 @@ MethodResult ratio_as_printed(const RefineProblem& problem, const RefineOptions&
     after_iteration(t, static_cast<double>(t) / options.max_iterations);
     if (t > 1 && report.energy >= best) {
       result.termination = Termination::converged;
-      result.message = "the energy rose at iteration " + std::to_string(t) + "; the state before it is given";
+      result.message = "stopped as Alg. 2 does: its energy rose at iteration " + std::to_string(t) +
+                       "; the state before it is given";
       break;
     }
-    const bool settled = t > 1 && best - report.energy <= options.tolerance * best;               // Alg. 2, line 4
+    const bool settled = t > 1 && best - report.energy <= options.tolerance * best;  // Alg. 2, line 4
     best = report.energy;
     result.state = state;
     if (settled) {

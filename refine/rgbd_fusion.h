@@ -8,8 +8,9 @@
 
 namespace rakelight {
 
-/// Preset paper: light (9), albedo (10), local term, depth by relinearisation. Robust: refine_by_shading with one light
-/// for all channels, in which the smoothness of depth is carried by sensor and image alike (refine/shading.h).
+/// Preset paper: light (9), albedo (10), local term beta, depth by relinearisation. Robust: the very call of fusion-like
+/// (refine/shading.h): the two methods differ in beta alone, which takes up what lamp and albedo do not explain, and
+/// there the weights that spare samples of large residual do that. The results are equal.
 /// @param problem with exactly one image
 MethodResult refine_rgbd_fusion(const RefineProblem& problem, const RefineOptions& options,
                                 const IterationCallback& after_iteration);

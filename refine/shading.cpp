@@ -8,20 +8,24 @@
 
 #include "refine/steps/albedo.h"
 #include "refine/steps/albedo_smooth.h"
-#include "refine/steps/laplacian.h"
+#include "refine/steps/curvature_prior.h"
 #include "refine/steps/lighting.h"
+#include "refine/steps/noise.h"
 #include "refine/steps/robust_weights.h"
 #include "refine/steps/smooth_depth_step.h"
 
 namespace rakelight {
 namespace {
 
-constexpr int kSmoothFits = 2;          // lamps and albedo are first fitted to the sensor's broad shape
-constexpr double kSmoothFitSigma = 5;   // pixels
-// Where the paint changes at nearly every step, the albedo is not determined by smoothness, and smoothness of depth has
-// to take over: it counts (1 - share of steps within one paint)^6, shading the rest to 1.
-constexpr double kPatchyPower = 6;
-constexpr float kDarkAlbedo = 0.05f;    // of the mean: below, I / rho says nothing
+constexpr int kSmoothFits = 2;         // lamps and albedo are first fitted to the sensor's broad shape
+constexpr double kSmoothFitSigma = 5;  // pixels
+// Deviation of the mean over a block of depth readings against that of white noise, at least: a surface drawn to the
+// sensor would otherwise make the sensor look better and be drawn further.
+constexpr double kSensorCorrelation = 2;
+// The same of the model's own error, which is alike all over a block of 4 x 4.
+constexpr double kModelCorrelation = 4;
+constexpr double kFloorPer = 100;       // the lambda_z that options.depth.floor goes with
+constexpr float kDarkAlbedo = 0.05f;  // of the mean: below, I / rho says nothing
 
 /// Normals averaged over their surroundings inside the mask.
 Eigen::Matrix3Xf smoothed(const PixelGrid& grid, const Eigen::Matrix3Xf& normals) {
@@ -68,6 +72,49 @@ SurfaceState white_object(const SurfaceState& state) {
   return white;
 }
 
+/// What is known of the errors: of a shading sample, and of shading and depth as means over blocks.
+struct ShadingErrors {
+  double sample = 0;
+  MeasuredNoise broad;
+};
+
+ShadingErrors shading_errors(const RefineProblem& problem, const RefineOptions& options,
+                             const Observations& white_image, const SurfaceState& white) {
+  const double least = options.trust.model_error * median_radiance(white_image);
+  ShadingErrors errors{residual_scale(white_image, white),
+                       measure_noise(problem.grid, white_image, white, problem.prior, problem.scale)};
+  errors.sample = std::max(errors.sample, least);
+  errors.broad.image = std::max(errors.broad.image, kModelCorrelation * least);
+  errors.broad.depth = std::max(errors.broad.depth, kSensorCorrelation * problem.depth_noise);
+  return errors;
+}
+
+/// lambda_z: as given, or the ratio of the measured error variances (refine/steps/noise.h).
+double sensor_weight(const DepthOptions& options, const ShadingErrors& errors) {
+  if (options.sensor_weight > 0) return options.sensor_weight;
+  const double ratio = errors.broad.image / errors.broad.depth;
+  return options.noise_ratio * ratio * ratio;
+}
+
+/// The three channels of a white-lit image say the same thing: together they count once.
+std::vector<float> thirds(std::vector<float> weights) {
+  for (float& w : weights) w /= 3;
+  return weights;
+}
+
+/// Three slopes of light are needed to tell a normal from the ratios of three channels.
+void judge_directions(const SurfaceState& state, MethodResult& result) {
+  constexpr double kNearlyOneDirection = 0.1;
+  const Eigen::Vector3d spread = lamp_singular_values(state.lamps, state.scene);
+  const double ratio = spread[0] > 0 ? spread[2] / spread[0] : 0;
+  result.quality["lamp_spread"] = ratio;
+  if (ratio >= kNearlyOneDirection) return;
+  result.warnings.push_back(
+      "the image's three channels are lit from nearly the same side: rgb-ratio needs red, green and blue "
+      "lamps "
+      "in different places; for an image under white light use --method fusion-like");
+}
+
 double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
   return std::sqrt((after.array().exp() - before.array().exp()).square().mean());
 }
@@ -91,14 +138,10 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
   SurfaceState& state = result.state = initial_shading_state(problem, options);
   const PixelGrid& grid = problem.grid;
   AlbedoSmoother smoother(grid, problem.images, options.albedo);
-  const double focal = grid.camera.fx;
-  const double patchy = std::pow(1 - smoother.plain_share(), kPatchyPower);
-  const auto trust = static_cast<float>(1 - patchy);
-  const Smoothness smoothness(laplacian(grid, problem.cut_right, problem.cut_down),
-                              options.depth.smoothness * patchy * focal * focal);
+  const CurvaturePrior curvature(grid, problem.cut_right, problem.cut_down);
   SparseCholesky solver;
   DepthPrior prior = problem.prior;
-  prior.cell_weight *= options.depth.sensor_weight;
+  ShadingErrors errors;
   const auto fail = [&](const std::string& what, int t) {
     result.termination = Termination::diverged;
     result.message = "the " + what + " system was singular at iteration " + std::to_string(t) +
@@ -115,7 +158,7 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
 
     broad.lamps = estimate_far_lamps(shading_image(problem.images, state, light), broad);  // Eq. (9)
     broad.albedo = state.albedo;
-    if (!smoother.estimate(broad, state.albedo)) {                                         // Eq. (10), on logarithms
+    if (!smoother.estimate(broad, state.albedo)) {  // Eq. (10), on logarithms
       fail("albedo", t);
       break;
     }
@@ -123,23 +166,30 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
     normalize_albedo(state);
     const Observations white_image = shading_image(problem.images, state, light);
     SurfaceState white = white_object(state);
-    if (t <= kSmoothFits) white.normals = broad.normals;
+    white.normals = broad.normals;
     white.lamps = state.lamps = estimate_far_lamps(white_image, white);
     white.normals = state.normals;
-    report.residual_scale = residual_scale(white_image, white);
 
+    errors = shading_errors(problem, options, white_image, white);
+    const double weight = sensor_weight(options.depth, errors);
+    prior.cell_weight = weight * problem.prior.cell_weight;
+    prior.floor = problem.prior.floor * weight / kFloorPer;  // an absolute one would make the exposure count
+    if (light == ImageLight::white) white.weight = thirds(white.weight);
     const auto tensors = accumulate_tensors(white_image, white);
-    auto weights = corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
-    for (auto& corners : weights)
-      for (float& w : corners) w *= trust;
+    const auto weights =
+        corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
     const DepthProblem depth{grid, problem.corners, tensors, weights, prior};
+    const Smoothness smoothness =
+        curvature.at(state.zeta, options.depth.smoothness * std::pow(errors.sample * grid.camera.fx, 2));
     const Eigen::VectorXd before = state.zeta;
-    const DepthStepReport step = smooth_depth_step(depth, smoothness, options.depth, solver, state.zeta);  // Eq. (12)
+    const DepthStepReport step =
+        smooth_depth_step(depth, smoothness, options.depth, solver, state.zeta);  // Eq. (12)
 
     report.energy_before_depth = step.energy_before;
     report.energy = step.energy_after;
     report.backtracks = step.backtracks;
     report.depth_change_mm = 1e3 * rms_change_m(before, state.zeta);
+    report.residual_scale = errors.sample;
     report.sensor_weight = prior.cell_weight.maxCoeff();
     result.iterations.push_back(report);
     after_iteration(t, static_cast<double>(t) / options.max_iterations);
@@ -147,17 +197,22 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
       fail("depth", t);
       break;
     }
-    if (t > options.min_iterations && report.depth_change_mm < 1e3 * options.tolerance * problem.sensor.noise_m) {
+    if (t > options.min_iterations &&
+        report.depth_change_mm < 1e3 * options.tolerance * problem.sensor.noise_m) {
       result.termination = Termination::converged;
       result.message = "settled after " + std::to_string(t) + " iterations";
       break;
     }
   }
   if (result.termination == Termination::max_iterations)
-    result.message = "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations";
+    result.message =
+        "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations, still moving";
   state.normals = surface_normals(grid, problem.corners, state.zeta);
   state.points = surface_points(grid, state.zeta);
-  result.quality["shading_trust"] = static_cast<double>(trust);
+  if (light == ImageLight::colored) judge_directions(state, result);
+  result.quality["image_noise"] = errors.broad.image;
+  result.quality["depth_noise_log"] = errors.broad.depth;
+  result.quality["sensor_weight"] = prior.cell_weight.maxCoeff();
   return result;
 }
 

@@ -4,10 +4,12 @@
 // The robust solver of the methods that use one image. Lamps and albedo by turns, then one Gauss-Newton step of the
 // depth on the residual of the shading itself,
 //
-//     E(zeta) = sum_p sum_c (l_c . n(zeta) + phi_c - I_c / rho_c)^2 + lambda_z |zeta - z0|^2 + lambda_l |f Lap zeta|^2
+//     E(zeta) = sum_p sum_c (l_c . n(zeta) + phi_c - I_c / rho_c)^2 + lambda_z |zeta - z0|^2 + lambda_l |f D2 zeta|^2
 //
-// with the symmetric stencil, weights that spare occlusion edges, a Laplacian cut at depth jumps and the albedo of
-// refine/steps/albedo_smooth.h.
+// with the symmetric stencil, weights that spare occlusion edges, second differences D2 that do so too
+// (refine/steps/curvature_prior.h) and the albedo of refine/steps/albedo_smooth.h. Nothing but measured errors balances
+// the terms: lambda_z is noise_ratio (shading error / depth error)^2 on blocks, lambda_l is smoothness (shading error)^2,
+// so 1 / sqrt(smoothness) is the change of tilt from pixel to pixel, in radians, that costs as much as one sample's error.
 #pragma once
 
 #include "refine/method.h"

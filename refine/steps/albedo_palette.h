@@ -14,7 +14,7 @@ struct PalettePull {
   Eigen::VectorXd trust;   ///< [pixel] 1 at the mode, falling to 0 beyond the bandwidth
 };
 
-/// Modes of the columns (log RGB) under a Gaussian kernel; modes that few pixels support are left out.
+/// Modes of the columns (log RGB) under a flat kernel of radius `bandwidth`; modes that few pixels support are left out.
 /// @return 3 x modes
 Eigen::Matrix3Xd palette_modes(const Eigen::Matrix3Xd& log_albedo, double bandwidth);
 

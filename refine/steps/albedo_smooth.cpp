@@ -10,8 +10,9 @@
 namespace rakelight {
 namespace {
 
-constexpr float kDarkest = 1e-3f;   // of the brightest value: below, a logarithm says more of noise than of paint
-constexpr float kDimShading = 0.1f; // of the median shading: below, a pixel does not speak for the albedo
+constexpr float kDarkest =
+    1e-3f;  // of the brightest value: below, a logarithm says more of noise than of paint
+constexpr float kDimShading = 0.1f;  // of the median shading: below, a pixel does not speak for the albedo
 
 float brightest(const Observations& image) {
   return std::max(1e-6f, *std::max_element(image.radiance.begin(), image.radiance.end()));
@@ -21,7 +22,8 @@ Eigen::Matrix3Xd log_radiance(const Observations& image) {
   const float least = kDarkest * brightest(image);
   Eigen::Matrix3Xd logs(3, image.pixels);
   for (int c = 0; c < 3; ++c)
-    for (int p = 0; p < image.pixels; ++p) logs(c, p) = std::log(static_cast<double>(std::max(least, image.channel(0, c)[p])));
+    for (int p = 0; p < image.pixels; ++p)
+      logs(c, p) = std::log(static_cast<double>(std::max(least, image.channel(0, c)[p])));
   return logs;
 }
 
@@ -42,7 +44,8 @@ float median_of(const Eigen::Matrix3Xf& values) {
 
 }  // namespace
 
-EdgeWeights color_edge_weights(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options) {
+EdgeWeights color_edge_weights(const PixelGrid& grid, const Observations& image,
+                               const AlbedoOptions& options) {
   const Eigen::Matrix3Xd logs = log_radiance(image);
   const double inverse = 1 / (2 * options.edge_sigma * options.edge_sigma);
   const auto weight = [&](int p, int q) {
@@ -59,16 +62,6 @@ EdgeWeights color_edge_weights(const PixelGrid& grid, const Observations& image,
 
 AlbedoSmoother::AlbedoSmoother(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options)
     : grid_(grid), image_(image), options_(options), edges_(color_edge_weights(grid, image, options)) {}
-
-double AlbedoSmoother::plain_share() const {
-  double sum = 0, count = 0;
-  for (int p = 0; p < grid_.size(); ++p) {
-    const auto i = static_cast<size_t>(p);
-    sum += edges_.right[i] + edges_.down[i];
-    count += (grid_.neighbor[kRight][i] >= 0 ? 1 : 0) + (grid_.neighbor[kDown][i] >= 0 ? 1 : 0);
-  }
-  return count > 0 ? sum / count : 1;
-}
 
 bool AlbedoSmoother::solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd& weighted_target,
                            Eigen::Matrix3Xd& log_albedo) {
@@ -92,7 +85,8 @@ bool AlbedoSmoother::solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd
   SparseCholesky::Matrix lower(count, count);
   lower.setFromTriplets(entries.begin(), entries.end());
   if (!solver_.factorize(lower)) return false;
-  for (int c = 0; c < 3; ++c) log_albedo.row(c) = solver_.solve(weighted_target.row(c).transpose()).transpose();
+  for (int c = 0; c < 3; ++c)
+    log_albedo.row(c) = solver_.solve(weighted_target.row(c).transpose()).transpose();
   return log_albedo.allFinite();
 }
 

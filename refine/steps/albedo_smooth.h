@@ -21,7 +21,8 @@ struct EdgeWeights {
 };
 
 /// From one image (image 0 of `image`): dark values count as `kDarkest` of the brightest.
-EdgeWeights color_edge_weights(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options);
+EdgeWeights color_edge_weights(const PixelGrid& grid, const Observations& image,
+                               const AlbedoOptions& options);
 
 /// Smooth log albedo of one image and what it is pulled to.
 class AlbedoSmoother {
@@ -31,11 +32,9 @@ class AlbedoSmoother {
   /// Albedo (3 x pixels) under the state's normals and lamps. @return false when the system is singular.
   bool estimate(const SurfaceState& state, Eigen::Matrix3Xf& albedo);
 
-  /// Mean v_pq: the share of steps between neighbours that stay within one paint.
-  double plain_share() const;
-
  private:
-  bool solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd& weighted_target, Eigen::Matrix3Xd& log_albedo);
+  bool solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd& weighted_target,
+             Eigen::Matrix3Xd& log_albedo);
 
   const PixelGrid& grid_;
   const Observations& image_;

@@ -7,12 +7,15 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-bool is_cut(const std::vector<unsigned char>& cuts, int p) { return !cuts.empty() && cuts[static_cast<size_t>(p)] != 0; }
+bool is_cut(const std::vector<unsigned char>& cuts, int p) {
+  return !cuts.empty() && cuts[static_cast<size_t>(p)] != 0;
+}
 
 /// Second difference at p along one axis, if both neighbours can be reached.
-void add_axis(const PixelGrid& grid, int p, Neighbor before, Neighbor after, const std::vector<unsigned char>& cuts,
-              Triplets& entries) {
-  const int a = grid.neighbor[before][static_cast<size_t>(p)], b = grid.neighbor[after][static_cast<size_t>(p)];
+void add_axis(const PixelGrid& grid, int p, Neighbor before, Neighbor after,
+              const std::vector<unsigned char>& cuts, Triplets& entries) {
+  const int a = grid.neighbor[before][static_cast<size_t>(p)],
+            b = grid.neighbor[after][static_cast<size_t>(p)];
   if (a < 0 || b < 0 || is_cut(cuts, a) || is_cut(cuts, p)) return;
   entries.emplace_back(p, a, 1.0);
   entries.emplace_back(p, b, 1.0);
@@ -27,13 +30,10 @@ Eigen::SparseMatrix<double> matrix_of(const PixelGrid& grid, const Triplets& ent
 
 }  // namespace
 
-Eigen::SparseMatrix<double> laplacian(const PixelGrid& grid, const std::vector<unsigned char>& cut_right,
-                                      const std::vector<unsigned char>& cut_down) {
+Eigen::SparseMatrix<double> second_differences(const PixelGrid& grid, Neighbor before, Neighbor after,
+                                               const std::vector<unsigned char>& cuts) {
   Triplets entries;
-  for (int p = 0; p < grid.size(); ++p) {
-    add_axis(grid, p, kLeft, kRight, cut_right, entries);
-    add_axis(grid, p, kUp, kDown, cut_down, entries);
-  }
+  for (int p = 0; p < grid.size(); ++p) add_axis(grid, p, before, after, cuts, entries);
   return matrix_of(grid, entries);
 }
 

@@ -58,7 +58,15 @@ bool solve_albedo(const Eigen::VectorXd& S, const Eigen::VectorXd& I, const Spar
   return solve_spd(A, S.cwiseProduct(I), rho);
 }
 
-bool diffuse_albedo(const PixelGrid& grid, const Eigen::VectorXd& I, double lambda, double sigma, Eigen::VectorXd& P) {
+bool solve_local_term(const Eigen::VectorXd& rest, const Sparse& W, const AlbedoOptions& options,
+                      Eigen::VectorXd& beta) {
+  const double root = std::sqrt(1 + options.local_weight);  // Eq. (10)'s form with S^2 = 1 + lambda_b2
+  return solve_albedo(Eigen::VectorXd::Constant(rest.size(), root), rest / root, W, options.local_smoothness,
+                      beta);
+}
+
+bool diffuse_albedo(const PixelGrid& grid, const Eigen::VectorXd& I, double lambda, double sigma,
+                    Eigen::VectorXd& P) {
   const auto step = [&](int p, Neighbor direction) {
     const int q = grid.neighbor[direction][static_cast<size_t>(p)];
     return q < 0 ? 0.0 : I[q] - I[p];

@@ -17,7 +17,8 @@ Observations only(const Observations& images, int i) {
   Observations one;
   one.pixels = images.pixels;
   one.images = 1;
-  one.radiance.assign(images.radiance.begin() + 3 * pixels * at, images.radiance.begin() + 3 * pixels * (at + 1));
+  one.radiance.assign(images.radiance.begin() + 3 * pixels * at,
+                      images.radiance.begin() + 3 * pixels * (at + 1));
   one.usable.assign(images.usable.begin() + 3 * pixels * at, images.usable.begin() + 3 * pixels * (at + 1));
   one.light_ids = {images.light_ids[k]};
   one.frame_index = {images.frame_index[k]};
@@ -28,14 +29,15 @@ Observations only(const Observations& images, int i) {
 
 SelectedImage selected(const Observations& images, int i) {
   const size_t k = static_cast<size_t>(i);
-  return {only(images, i), "frame " + std::to_string(images.frame_index[k]) + " (lamp " + images.light_ids[k] +
-                               ") was used"};
+  return {only(images, i),
+          "frame " + std::to_string(images.frame_index[k]) + " (lamp " + images.light_ids[k] + ") was used"};
 }
 
 int image_of_frame(const Observations& images, int frame) {
   const auto found = std::find(images.frame_index.begin(), images.frame_index.end(), frame);
   if (found == images.frame_index.end()) {
-    throw UsageError("frame " + std::to_string(frame) + " is not a lit colour frame of the stack; see rakelight info");
+    throw UsageError("frame " + std::to_string(frame) +
+                     " is not a lit colour frame of the stack; see rakelight info");
   }
   return static_cast<int>(found - images.frame_index.begin());
 }
@@ -44,8 +46,8 @@ int image_of_frame(const Observations& images, int frame) {
 std::optional<int> image_lit(const LightStack& stack, const Observations& images, LampColor color) {
   for (int i = 0; i < images.images; ++i) {
     const std::string& id = images.light_ids[static_cast<size_t>(i)];
-    const auto light =
-        std::find_if(stack.lights.begin(), stack.lights.end(), [&](const Light& each) { return each.id == id; });
+    const auto light = std::find_if(stack.lights.begin(), stack.lights.end(),
+                                    [&](const Light& each) { return each.id == id; });
     if (light != stack.lights.end() && light->color == color) return i;
   }
   return std::nullopt;
@@ -59,7 +61,8 @@ std::optional<SelectedImage> composed(const LightStack& stack, const Observation
   SelectedImage result{only(images, *lit[0]), "frames"};
   for (int c = 0; c < 3; ++c) {
     const int i = *lit[static_cast<size_t>(c)];
-    std::copy_n(images.channel(i, c), images.pixels, result.image.radiance.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
+    std::copy_n(images.channel(i, c), images.pixels,
+                result.image.radiance.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
     std::copy_n(images.usable_in(i, c), images.pixels,
                 result.image.usable.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
     result.explanation += (c == 0 ? " " : ", ") + std::to_string(images.frame_index[static_cast<size_t>(i)]);
@@ -78,11 +81,15 @@ SelectedImage select_colored_image(const LightStack& stack, const Observations& 
   if (frame >= 0) return selected(images, image_of_frame(images, frame));
   if (images.images == 1) return selected(images, 0);
   const auto colored = std::find(images.colored_lamps.begin(), images.colored_lamps.end(), true);
-  if (colored != images.colored_lamps.end()) return selected(images, static_cast<int>(colored - images.colored_lamps.begin()));
+  if (colored != images.colored_lamps.end())
+    return selected(images, static_cast<int>(colored - images.colored_lamps.begin()));
   if (auto image = composed(stack, images)) return *image;
-  throw InputError(stack.origin, "none of its " + std::to_string(images.images) +
-                                     " images was taken under red, green and blue lamps, which rgb-ratio needs",
-                   "use --method multi-light for many images under one lamp each, or --frame N if an image is colour-lit");
+  throw InputError(stack.origin,
+                   "none of its " + std::to_string(images.images) +
+                       " images was taken under red, green and blue lamps, which rgb-ratio needs",
+                   "use --method multi-light for four and more images under one lamp each, fusion-like for "
+                   "any one image, or "
+                   "--frame N if an image is colour-lit");
 }
 
 }  // namespace rakelight

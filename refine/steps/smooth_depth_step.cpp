@@ -43,8 +43,10 @@ void add_cells(const DepthCells& cells, const Eigen::VectorXd& cell_weight, Trip
 Smoothness::Smoothness(const Eigen::SparseMatrix<double>& laplacian, double weight)
     : matrix_(weight * (Eigen::SparseMatrix<double>(laplacian.transpose()) * laplacian)) {}
 
-Eigen::SparseMatrix<double> lower_triangle(const PixelGrid& grid, const DepthCells& cells, const DepthSystem& system,
-                                           const Smoothness& smoothness) {
+Smoothness::Smoothness(Eigen::SparseMatrix<double> matrix) : matrix_(std::move(matrix)) {}
+
+Eigen::SparseMatrix<double> lower_triangle(const PixelGrid& grid, const DepthCells& cells,
+                                           const DepthSystem& system, const Smoothness& smoothness) {
   Triplets entries;
   entries.reserve(static_cast<size_t>(6 * grid.size()));
   add_stencil(grid, system, entries);
@@ -54,9 +56,12 @@ Eigen::SparseMatrix<double> lower_triangle(const PixelGrid& grid, const DepthCel
   return stencil + Eigen::SparseMatrix<double>(smoothness.matrix().triangularView<Eigen::Lower>());
 }
 
-DepthStepReport smooth_depth_step(const DepthProblem& problem, const Smoothness& smoothness, const DepthOptions& options,
-                                  SparseCholesky& solver, Eigen::VectorXd& zeta) {
-  const auto energy = [&](const Eigen::VectorXd& at) { return depth_energy(problem, at) + smoothness.energy(at); };
+DepthStepReport smooth_depth_step(const DepthProblem& problem, const Smoothness& smoothness,
+                                  const DepthOptions& options, SparseCholesky& solver,
+                                  Eigen::VectorXd& zeta) {
+  const auto energy = [&](const Eigen::VectorXd& at) {
+    return depth_energy(problem, at) + smoothness.energy(at);
+  };
   DepthStepReport report;
   report.energy_before = report.energy_after = energy(zeta);
   const DepthSystem system = depth_system(problem, zeta, options.linearization);
