@@ -28,7 +28,7 @@ constexpr int kNotConverged = 7;
 
 struct Arguments {
   std::filesystem::path stack, output, config;
-  std::optional<std::string> method, preset, mask, response, lamps;
+  std::optional<std::string> method, preset, mask, response, lamps, solver;
   std::optional<int> scale, iterations, threads, frame;
   bool json = false, no_smoothness = false;
 };
@@ -68,6 +68,7 @@ RefineOptions options_of(const Arguments& arguments) {
   if (arguments.no_smoothness) options.depth.smoothness = 0;
   options.threads = arguments.threads.value_or(options.threads);
   options.lamps.model = value_named<LampModel>(arguments.lamps).value_or(options.lamps.model);
+  options.depth.solver = value_named<Solver>(arguments.solver).value_or(options.depth.solver);
   return options;
 }
 
@@ -156,6 +157,10 @@ void add_refine_command(CLI::App& program, int& exit_code) {
       ->type_name("linear|srgb|GAMMA|auto");
   command->add_option("--iterations", arguments->iterations, "Outer iterations at most")
       ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--solver", arguments->solver,
+                   "Of the multi-light depth step: multigrid (default), or exact, the slower reference")
+      ->check(CLI::IsMember(names_of<Solver>()));
   command->add_option("--config", arguments->config, "Parameters from a TOML file; options here override it")
       ->type_name("FILE");
   command->add_option("--threads", arguments->threads, "Threads; 0 (default): all; the result is the same")

@@ -108,7 +108,9 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   require_enough_images(images);
   MethodResult result;
   SurfaceState& state = result.state = initial_state(problem, options);
-  const auto solver = make_cholesky_depth_solver(problem.grid, problem.prior.cells);
+  const auto solver = options.depth.solver == Solver::exact
+                          ? make_cholesky_depth_solver(problem.grid, problem.prior.cells)
+                          : make_multigrid_depth_solver(problem.grid, problem.prior.cells);
   const double model_error = options.trust.model_error * median_radiance(images);
   const SensorWeight sensor_weight(problem, options, model_error);
   LampEstimator lamps(options.lamps);

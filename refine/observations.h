@@ -31,6 +31,10 @@ struct Observations {
     return usable.data() + (static_cast<size_t>(image) * 3 + static_cast<size_t>(c)) * static_cast<size_t>(pixels);
   }
 
+  Eigen::Vector3f radiance_at(int image, int pixel) const {
+    return {channel(image, 0)[pixel], channel(image, 1)[pixel], channel(image, 2)[pixel]};
+  }
+
   /// 1 or 0 a channel: whether this sample can be used.
   Eigen::Vector3f usable_channels(int image, int pixel) const {
     return {static_cast<float>(usable_in(image, 0)[pixel]), static_cast<float>(usable_in(image, 1)[pixel]),

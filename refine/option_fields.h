@@ -22,6 +22,8 @@ inline constexpr std::array kValuesOf<Linearization>{Linearization::gauss_newton
 template <>
 inline constexpr std::array kValuesOf<Stencil>{Stencil::forward, Stencil::symmetric};
 template <>
+inline constexpr std::array kValuesOf<Solver>{Solver::multigrid, Solver::exact};
+template <>
 inline constexpr std::array kValuesOf<LampModel>{LampModel::automatic, LampModel::far, LampModel::near};
 template <>
 inline constexpr std::array kValuesOf<LampPositions>{LampPositions::estimated, LampPositions::start,
@@ -68,6 +70,7 @@ void for_each_option(Options& options, Visitor&& visit) {
   visit("depth.noise_ratio", options.depth.noise_ratio);
   visit("depth.smoothness", options.depth.smoothness);
   visit("depth.floor", options.depth.floor);
+  visit("depth.solver", options.depth.solver);
   visit("depth.linearization", options.depth.linearization);
   visit("depth.stencil", options.depth.stencil);
   visit("depth.max_backtracks", options.depth.max_backtracks);

@@ -79,6 +79,8 @@ std::string to_string(Linearization linearization) {
 
 std::string to_string(Stencil stencil) { return stencil == Stencil::forward ? "forward" : "symmetric"; }
 
+std::string to_string(Solver solver) { return solver == Solver::multigrid ? "multigrid" : "exact"; }
+
 std::string to_string(LampModel model) {
   switch (model) {
     case LampModel::automatic: return "auto";

@@ -16,6 +16,12 @@ enum class Stencil {
   symmetric,  ///< the mean over all four corners: unbiased, without the null space of central differences
 };
 
+/// What solves the depth step's linear system (refine/solver/depth_solver.h).
+enum class Solver {
+  multigrid,  ///< conjugate gradients with a multigrid preconditioner
+  exact,      ///< sparse Cholesky factorisation: the reference
+};
+
 /// Filling and smoothing of the sensor's depth before any method (Sec. III, first paragraph).
 struct PreprocessOptions {
   double bilateral_sigma_px = 3.0;     ///< spatial reach of the bilateral filter, depth pixels
@@ -77,6 +83,7 @@ struct DepthOptions {
   /// the change of tilt from pixel to pixel, against one shading sample's error variance, 1/rad^2 (refine/shading.h)
   double smoothness = 0;
   double floor = 0.5;  ///< weak pull of every refined pixel to the start, on log z (METHODS: super-resolution)
+  Solver solver = Solver::multigrid;
   Linearization linearization = Linearization::gauss_newton;
   Stencil stencil = Stencil::symmetric;
   int max_backtracks = 8;  ///< halvings of a step that would raise the energy; 0: take it as it is (the paper)
@@ -108,6 +115,7 @@ std::string to_string(Method method);
 std::string to_string(Preset preset);
 std::string to_string(Linearization linearization);
 std::string to_string(Stencil stencil);
+std::string to_string(Solver solver);
 std::string to_string(LampModel model);
 std::string to_string(LampPositions positions);
 

@@ -66,7 +66,7 @@ class CholeskyDepthSolver final : public DepthSolver {
     return true;
   }
 
-  Eigen::VectorXd sample(const Eigen::VectorXd& white) const override { return cholesky_.sample(white); }
+  Eigen::VectorXd sample(const Eigen::VectorXd& white) override { return cholesky_.sample(white); }
 
  private:
   void assemble(const DepthSystem& system) {

@@ -17,19 +17,24 @@ namespace rakelight {
 
 /// Which refined pixels the reading of a depth pixel is the mean of.
 struct DepthCells {
-  std::vector<int> cell_of;               ///< [pixel]: number of its cell
+  std::vector<int> cell_of;                 ///< [pixel]: number of its cell
   std::vector<std::vector<int>> pixels_of;  ///< [cell]: its pixels, at most s x s
 };
 
 /// Symmetric system (stencil + K' diag(cell_weight) K) x = rhs.
 struct DepthSystem {
-  std::vector<double> diagonal, right, down, down_right, down_left;  ///< entry (p, neighbour of p in that direction)
+  std::vector<double> diagonal, right, down, down_right,
+      down_left;                ///< entry (p, neighbour of p in that direction)
   Eigen::VectorXd cell_weight;  ///< Lambda, a number a cell
   Eigen::VectorXd rhs;
 
   explicit DepthSystem(int pixels)
-      : diagonal(static_cast<size_t>(pixels)), right(diagonal), down(diagonal), down_right(diagonal),
-        down_left(diagonal), rhs(Eigen::VectorXd::Zero(pixels)) {}
+      : diagonal(static_cast<size_t>(pixels)),
+        right(diagonal),
+        down(diagonal),
+        down_right(diagonal),
+        down_left(diagonal),
+        rhs(Eigen::VectorXd::Zero(pixels)) {}
 };
 
 class DepthSolver {
@@ -40,10 +45,14 @@ class DepthSolver {
   virtual bool solve(const DepthSystem& system, Eigen::VectorXd& x) = 0;
 
   /// Draws from the normal distribution whose precision is the last system solved. @param white standard normal.
-  virtual Eigen::VectorXd sample(const Eigen::VectorXd& white) const = 0;
+  virtual Eigen::VectorXd sample(const Eigen::VectorXd& white) = 0;
 };
 
 /// The exact solver: CHOLMOD, symbolic factorisation kept. The grid and cells must outlive it.
 std::unique_ptr<DepthSolver> make_cholesky_depth_solver(const PixelGrid& grid, const DepthCells& cells);
+
+/// Conjugate gradients with a multigrid preconditioner (refine/solver/multigrid.h): time and memory linear in the pixels.
+/// A system it does not converge on goes to the exact solver, which also draws the samples.
+std::unique_ptr<DepthSolver> make_multigrid_depth_solver(const PixelGrid& grid, const DepthCells& cells);
 
 }  // namespace rakelight

@@ -2,31 +2,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/steps/albedo.h"
 
-#include "refine/pixel_blocks.h"
+#include "refine/lamp_shading.h"
 
 namespace rakelight {
 
 Eigen::Matrix3Xf estimate_albedo(const Observations& images, const SurfaceState& state) {
   Eigen::Matrix3Xf albedo = state.albedo;
   for_each_block(images.pixels, [&](int begin, int end) {
-    Eigen::Matrix3Xf numerator = Eigen::Matrix3Xf::Zero(3, end - begin);
-    Eigen::Matrix3Xf denominator = numerator;
+    const int count = end - begin;
+    Eigen::ArrayX3f numerator = Eigen::ArrayX3f::Zero(count, 3), denominator = numerator;
+    ShadingBlock model;
     for (int i = 0; i < images.images; ++i) {
-      const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
-      const float* weight = state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
-      for (int p = begin; p < end; ++p) {
-        const LocalLight light = light_at(lamp, state.points.col(p), state.scene);
-        const Eigen::Vector3f S = shading(light, state.normals.col(p), state.attached_shadows);
-        const Eigen::Vector3f I(images.channel(i, 0)[p], images.channel(i, 1)[p], images.channel(i, 2)[p]);
-        const Eigen::Vector3f w = weight[p] * images.usable_channels(i, p);
-        numerator.col(p - begin) += w.cwiseProduct(S).cwiseProduct(I);
-        denominator.col(p - begin) += w.cwiseProduct(S.cwiseAbs2());
+      shade(state.lamps[static_cast<size_t>(i)], state, begin, end, model);
+      const float* weight =
+          state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels) + begin;
+      for (int c = 0; c < 3; ++c) {
+        const float* S = model.S[static_cast<size_t>(c)].data();
+        const float* I = images.channel(i, c) + begin;
+        const unsigned char* usable = images.usable_in(i, c) + begin;
+        float *sum_SI = numerator.col(c).data(), *sum_SS = denominator.col(c).data();
+        for (int k = 0; k < count; ++k) {
+          const float wS = weight[k] * static_cast<float>(usable[k]) * S[k];
+          sum_SI[k] += wS * I[k];
+          sum_SS[k] += wS * S[k];
+        }
       }
     }
-    for (int p = begin; p < end; ++p) {
+    for (int k = 0; k < count; ++k) {
       for (int c = 0; c < 3; ++c) {
-        const float squares = denominator(c, p - begin);
-        if (squares > 1e-8f) albedo(c, p) = std::max(0.0f, numerator(c, p - begin) / squares);
+        if (denominator(k, c) > 1e-8f)
+          albedo(c, begin + k) = std::max(0.0f, numerator(k, c) / denominator(k, c));
       }
     }
   });

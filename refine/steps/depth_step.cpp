@@ -29,7 +29,8 @@ struct GradientEquations {
   Eigen::Vector2f b;
 };
 
-GradientEquations gauss_newton(const PhotometricTensor& e, const NormalFrame& frame, const Eigen::Vector2f& g) {
+GradientEquations gauss_newton(const PhotometricTensor& e, const NormalFrame& frame,
+                               const Eigen::Vector2f& g) {
   const Eigen::Vector3f raw = frame.raw(g.x(), g.y());
   const float d = raw.norm();
   const Eigen::Vector3f n = raw / d;
@@ -38,31 +39,85 @@ GradientEquations gauss_newton(const PhotometricTensor& e, const NormalFrame& fr
   return {dn.transpose() * e.G * dn, dn.transpose() * (e.h - e.G * n)};
 }
 
-GradientEquations fixed_point(const PhotometricTensor& e, const NormalFrame& frame, const Eigen::Vector2f& g) {
+GradientEquations fixed_point(const PhotometricTensor& e, const NormalFrame& frame,
+                              const Eigen::Vector2f& g) {
   const Eigen::Vector3f raw = frame.raw(g.x(), g.y());
   const float d = raw.norm();
   const Eigen::Matrix<float, 3, 2> J = frame.jacobian() / d;
   return {J.transpose() * e.G * J, J.transpose() * (e.h - e.G * (raw / d))};
 }
 
-/// Adds one corner's rows: zeta_x = sx (zeta_a - zeta_p), zeta_y = sy (zeta_b - zeta_p).
-void scatter_corner(int p, const Corner& corner, const GradientEquations& equations,
-                    DepthSystem& system) {
-  const double sx = static_cast<double>(corner.x_sign), sy = static_cast<double>(corner.y_sign);
-  const Eigen::Matrix2d A = equations.A.cast<double>();
-  const double xx = A(0, 0), yy = A(1, 1), xy = A(0, 1) * sx * sy;
-  const auto at = [](int q) { return static_cast<size_t>(q); };
-  system.diagonal[at(p)] += xx + yy + 2 * xy;
-  system.diagonal[at(corner.x_neighbor)] += xx;
-  system.diagonal[at(corner.y_neighbor)] += yy;
-  system.right[at(sx > 0 ? p : corner.x_neighbor)] -= xx + xy;
-  system.down[at(sy > 0 ? p : corner.y_neighbor)] -= yy + xy;
-  const int upper = sy > 0 ? corner.x_neighbor : corner.y_neighbor;  // the diagonal pair, stored at its upper pixel
-  ((sx > 0) == (sy > 0) ? system.down_left : system.down_right)[at(upper)] += xy;
-  const double bx = sx * static_cast<double>(equations.b.x()), by = sy * static_cast<double>(equations.b.y());
-  system.rhs[corner.x_neighbor] += bx;
-  system.rhs[corner.y_neighbor] += by;
-  system.rhs[p] -= bx + by;
+/// One pixel's rows summed over its corners, zeta_x = sx (zeta_a - zeta_p), zeta_y = sy (zeta_b - zeta_p); the index of
+/// a pair is the corner's, 2 (sy < 0) + (sx < 0).
+struct PixelRows {
+  std::array<double, 2> xx{}, yy{}, bx{}, by{};  ///< towards right and left, down and up
+  std::array<double, 4> xy{};                    ///< signed: the entry of the pair (a, b)
+};
+
+/// Median over the corners there are.
+float median_energy(const CornerList& corners, const std::vector<std::array<float, 4>>& energy) {
+  std::vector<float> sorted;
+  sorted.reserve(4 * energy.size());
+  for (size_t p = 0; p < energy.size(); ++p)
+    for_each_corner(corners, static_cast<int>(p),
+                    [&](size_t k, const Corner&) { sorted.push_back(energy[p][k]); });
+  if (sorted.empty()) return 0;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+constexpr size_t kRightDown = 0, kLeftDown = 1, kRightUp = 2, kLeftUp = 3;
+
+void add_corner(const Corner& corner, const GradientEquations& equations, PixelRows& rows) {
+  const auto sx = static_cast<double>(corner.x_sign), sy = static_cast<double>(corner.y_sign);
+  const size_t x = sx > 0 ? 0 : 1, y = sy > 0 ? 0 : 1;
+  rows.xx[x] += static_cast<double>(equations.A(0, 0));
+  rows.yy[y] += static_cast<double>(equations.A(1, 1));
+  rows.xy[2 * y + x] += static_cast<double>(equations.A(0, 1)) * sx * sy;
+  rows.bx[x] += static_cast<double>(equations.b.x()) * sx;
+  rows.by[y] += static_cast<double>(equations.b.y()) * sy;
+}
+
+/// Entry (i, i) and right-hand side of each pixel's row, and its entries to the pixels on the right and below: what
+/// the pixel's own rows and those of its neighbours add up to.
+void gather_rows(const PixelGrid& grid, const std::vector<PixelRows>& all, int p, DepthSystem& system) {
+  const auto i = static_cast<size_t>(p);
+  const PixelRows& own = all[i];
+  static const PixelRows kNone;
+  const auto of = [&](Neighbor direction) -> const PixelRows& {
+    const int q = grid.neighbor[direction][i];
+    return q < 0 ? kNone : all[static_cast<size_t>(q)];
+  };
+  const PixelRows &right = of(kRight), &left = of(kLeft), &down = of(kDown), &up = of(kUp);
+  system.diagonal[i] = own.xx[0] + own.xx[1] + own.yy[0] + own.yy[1] +
+                       2 * (own.xy[kRightDown] + own.xy[kLeftDown] + own.xy[kRightUp] + own.xy[kLeftUp]) +
+                       left.xx[0] + right.xx[1] + up.yy[0] + down.yy[1];
+  system.right[i] = -(own.xx[0] + own.xy[kRightDown] + own.xy[kRightUp]) -
+                    (right.xx[1] + right.xy[kLeftDown] + right.xy[kLeftUp]);
+  system.down[i] = -(own.yy[0] + own.xy[kRightDown] + own.xy[kLeftDown]) -
+                   (down.yy[1] + down.xy[kRightUp] + down.xy[kLeftUp]);
+  system.down_right[i] = right.xy[kLeftDown] + down.xy[kRightUp];
+  system.down_left[i] = left.xy[kRightDown] + down.xy[kLeftUp];
+  system.rhs[p] =
+      left.bx[0] + right.bx[1] + up.by[0] + down.by[1] - (own.bx[0] + own.bx[1] + own.by[0] + own.by[1]);
+}
+
+/// Adds w (rho l_c, rest) of the lit channels to the tensor; light of a near lamp is one vector times a strength.
+void add_near_sample(const Eigen::Vector3f& v, const Eigen::Vector3f& strength, const Eigen::Vector3f& rest,
+                     float weight, PhotometricTensor& sum) {
+  sum.G += weight * strength.squaredNorm() * v * v.transpose();
+  sum.h += weight * strength.dot(rest) * v;
+}
+
+void add_far_sample(const Eigen::Matrix3f& l, const Eigen::Vector3f& lit, const Eigen::Vector3f& rest,
+                    float weight, PhotometricTensor& sum) {
+  for (int c = 0; c < 3; ++c) {
+    if (lit[c] == 0.0f) continue;
+    const Eigen::Vector3f lc = lit[c] * l.row(c).transpose();
+    sum.G += weight * lc * lc.transpose();
+    sum.h += weight * rest[c] * lc;
+  }
 }
 
 }  // namespace
@@ -75,17 +130,22 @@ std::vector<PhotometricTensor> accumulate_tensors(const Observations& images, co
       const float* weight = state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
       for (int p = begin; p < end; ++p) {
         if (weight[p] == 0.0f) continue;
-        const LocalLight light = light_at(lamp, state.points.col(p), state.scene);
         PhotometricTensor& sum = tensors[static_cast<size_t>(p)];
-        for (int c = 0; c < 3; ++c) {
-          if (!images.usable_in(i, c)[p]) continue;
-          const float rho = state.albedo(c, p);
-          const Eigen::Vector3f l = rho * light.l.row(c).transpose();
-          const float rest = images.channel(i, c)[p] - rho * light.phi[c];
-          sum.e0 += weight[p] * rest * rest;
-          if (state.attached_shadows && l.dot(state.normals.col(p)) <= 0.0f) continue;
-          sum.G += weight[p] * l * l.transpose();
-          sum.h += weight[p] * rest * l;
+        const Eigen::Vector3f rho = images.usable_channels(i, p).cwiseProduct(state.albedo.col(p));
+        const Eigen::Vector3f rest =
+            images.usable_channels(i, p).cwiseProduct(images.radiance_at(i, p)) - rho.cwiseProduct(lamp.phi);
+        sum.e0 += weight[p] * rest.squaredNorm();
+        const Eigen::Vector3f n = state.normals.col(p);
+        if (lamp.near) {
+          const Eigen::Vector3f v =
+              near_light_vector(lamp.direction, lamp.inverse_distance,
+                                state.points.col(p) - state.scene.center, state.scene.lobe_exponent);
+          if (!state.attached_shadows || v.dot(n) > 0.0f)
+            add_near_sample(v, rho.cwiseProduct(lamp.strength), rest, weight[p], sum);
+        } else {
+          Eigen::Vector3f lit = rho;
+          if (state.attached_shadows) lit = ((lamp.l * n).array() > 0.0f).select(lit, 0.0f);
+          add_far_sample(lamp.l, lit, rest, weight[p], sum);
         }
       }
     }
@@ -97,21 +157,17 @@ std::vector<std::array<float, 4>> corner_weights(const PixelGrid& grid, const Co
                                                  const std::vector<PhotometricTensor>& tensors,
                                                  const Eigen::VectorXd& zeta, double edge_weight) {
   std::vector<std::array<float, 4>> weights(static_cast<size_t>(grid.size()));
-  std::vector<float> energies;
-  for (int p = 0; p < grid.size(); ++p) {
-    const size_t at = static_cast<size_t>(p);
-    for_each_corner(corners, p, [&](size_t k, const Corner& corner) {
-      const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
-      weights[at][k] = std::max(0.0f, tensors[at].energy(normal_frame(grid, p).raw(g.x(), g.y()).normalized()));
-      energies.push_back(weights[at][k]);
-    });
-  }
-  float half = 0;
-  if (edge_weight > 0 && !energies.empty()) {
-    const auto middle = energies.begin() + static_cast<std::ptrdiff_t>(energies.size() / 2);
-    std::nth_element(energies.begin(), middle, energies.end());
-    half = static_cast<float>(edge_weight) * *middle;
-  }
+  for_each_block(grid.size(), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      const size_t at = static_cast<size_t>(p);
+      for_each_corner(corners, p, [&](size_t k, const Corner& corner) {
+        const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
+        weights[at][k] =
+            std::max(0.0f, tensors[at].energy(normal_frame(grid, p).raw(g.x(), g.y()).normalized()));
+      });
+    }
+  });
+  const float half = edge_weight > 0 ? static_cast<float>(edge_weight) * median_energy(corners, weights) : 0;
   for (int p = 0; p < grid.size(); ++p) {
     const size_t at = static_cast<size_t>(p);
     for (float& w : weights[at]) w = corners.weight[at] / (half > 0 ? 1.0f + w / half : 1.0f);
@@ -133,21 +189,29 @@ double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta) {
   return photometric + prior_energy(problem.prior, zeta);
 }
 
-DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization) {
-  DepthSystem system(problem.grid.size());
-  for (int p = 0; p < problem.grid.size(); ++p) {
-    const NormalFrame frame = normal_frame(problem.grid, p);
-    const PhotometricTensor& e = problem.tensors[static_cast<size_t>(p)];
-    for_each_corner(problem.corners, p, [&](size_t k, const Corner& corner) {
-      const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
-      GradientEquations equations =
-          linearization == Linearization::gauss_newton ? gauss_newton(e, frame, g) : fixed_point(e, frame, g);
-      const float weight = problem.corner_weight[static_cast<size_t>(p)][k];
-      equations.A *= weight;
-      equations.b *= weight;
-      scatter_corner(p, corner, equations, system);
-    });
-  }
+DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
+                         Linearization linearization) {
+  const int pixels = problem.grid.size();
+  std::vector<PixelRows> rows(static_cast<size_t>(pixels));
+  for_each_block(pixels, [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      const NormalFrame frame = normal_frame(problem.grid, p);
+      const PhotometricTensor& e = problem.tensors[static_cast<size_t>(p)];
+      for_each_corner(problem.corners, p, [&](size_t k, const Corner& corner) {
+        const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
+        GradientEquations equations = linearization == Linearization::gauss_newton ? gauss_newton(e, frame, g)
+                                                                                   : fixed_point(e, frame, g);
+        const float weight = problem.corner_weight[static_cast<size_t>(p)][k];
+        equations.A *= weight;
+        equations.b *= weight;
+        add_corner(corner, equations, rows[static_cast<size_t>(p)]);
+      });
+    }
+  });
+  DepthSystem system(pixels);
+  for_each_block(pixels, [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) gather_rows(problem.grid, rows, p, system);
+  });
   add_prior(problem.prior, zeta, system);
   return system;
 }

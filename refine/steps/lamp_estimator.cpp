@@ -12,15 +12,16 @@
 namespace rakelight {
 namespace {
 
-constexpr int kFirstNear = 4;   // outer iteration: far lamps of a noisy shape are good enough as a start by then
-constexpr int kChoice = 10;     // outer iteration: the near fit has settled enough to be compared
+constexpr int kFirstNear =
+    4;                       // outer iteration: far lamps of a noisy shape are good enough as a start by then
+constexpr int kChoice = 10;  // outer iteration: the near fit has settled enough to be compared
 constexpr float kStartInverseDistance = 1.0f;  // 1/m; 0.5, 1 and 2 m were seen to reach the same point
 constexpr double kClearlyBetter = 1.02;        // far residual / near residual above which near lamps stay
 
 /// The alternation of lamps and shape creeps towards the right distance: going twice as far halves the iterations.
 constexpr float kOverRelaxation = 2.0f;
 constexpr float kMaxInverseDistance = 10.0f;
-constexpr double kSettledChange = 0.001;  // of the distance, an iteration, median over the lamps
+constexpr double kSettledTurn = 2e-4;  // radians an iteration
 
 Lamp at_position(const Lamp& lamp, const Eigen::Vector3d& position, const LampScene& scene) {
   const Eigen::Vector3f offset = position.cast<float>() - scene.center;
@@ -30,17 +31,25 @@ Lamp at_position(const Lamp& lamp, const Eigen::Vector3d& position, const LampSc
   return result;
 }
 
-/// Relative, of the near lamps of an iteration.
-double median_distance_change(const std::vector<Lamp>& before, const std::vector<Lamp>& after) {
-  std::vector<double> changes;
+/// How far the light's direction at the object's rim turned, radians: what a change of distance does to the shape.
+/// Median over the near lamps. A lamp that is really far may wander without end between 30 m and 3 km: that is nothing.
+double turn_at_rim(const std::vector<Lamp>& before, const std::vector<Lamp>& after, double radius_m) {
+  std::vector<double> turns;
   for (size_t i = 0; i < after.size(); ++i) {
-    const auto old = static_cast<double>(before[i].inverse_distance);
-    if (after[i].near && old > 0) changes.push_back(std::abs(static_cast<double>(after[i].inverse_distance) / old - 1));
+    if (!after[i].near) continue;
+    turns.push_back(radius_m *
+                    std::abs(static_cast<double>(after[i].inverse_distance - before[i].inverse_distance)));
   }
-  if (changes.empty()) return 0;
-  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
-  std::nth_element(changes.begin(), middle, changes.end());
+  if (turns.empty()) return 0;
+  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
+  std::nth_element(turns.begin(), middle, turns.end());
   return *middle;
+}
+
+/// Root mean square distance of the surface points from their centre, metres.
+double object_radius(const SurfaceState& state) {
+  return std::sqrt(
+      static_cast<double>((state.points.colwise() - state.scene.center).colwise().squaredNorm().mean()));
 }
 
 std::string with_number(const char* format, double number) {
@@ -71,7 +80,7 @@ void LampEstimator::update(const Observations& images, SurfaceState& state, int 
       kappa = std::clamp(old + kOverRelaxation * (kappa - old), 0.0f, kMaxInverseDistance);
     }
   }
-  settled_ = median_distance_change(before, state.lamps) < kSettledChange;
+  settled_ = turn_at_rim(before, state.lamps, object_radius(state)) < kSettledTurn;
   if (options_.model == LampModel::automatic && iteration == kChoice) choose(images, state);
 }
 

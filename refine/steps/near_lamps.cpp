@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <cmath>
 #include <opencv2/core/utility.hpp>
 
 namespace rakelight {
@@ -27,44 +28,58 @@ struct LampFit {
   double samples = 0;
 };
 
+/// A channel's shading depends on the position through one number v.n, and on its own strength and ambient share
+/// alone: d S_c = e_c (z_0, z_1, z_2) + z_3 d e_c + z_4 d phi_c. Sums of w rho^2 z z' and w rho r z.
+struct ChannelSums {
+  Eigen::Matrix<double, 5, 5> A = Eigen::Matrix<double, 5, 5>::Zero();
+  Eigen::Matrix<double, 5, 1> b = Eigen::Matrix<double, 5, 1>::Zero();
+};
+
+void add_channel(const ChannelSums& sums, int c, double strength, LampFit& fit) {
+  Eigen::Matrix<double, 5, 1> scale;
+  scale << strength, strength, strength, 1, 1;
+  const std::array<int, 5> unknowns{0, 1, 2, 3 + c, 6 + c};
+  for (int i = 0; i < 5; ++i) {
+    fit.b[unknowns[static_cast<size_t>(i)]] += scale[i] * sums.b[i];
+    for (int j = 0; j < 5; ++j) {
+      fit.A(unknowns[static_cast<size_t>(i)], unknowns[static_cast<size_t>(j)]) +=
+          scale[i] * scale[j] * sums.A(std::max(i, j), std::min(i, j));
+    }
+  }
+}
+
 LampFit fit_equations(const Observations& images, const SurfaceState& state, int image, const Lamp& lamp,
                       int pixels_used, bool derivatives) {
   LampFit fit;
   const int stride = std::max(1, images.pixels / pixels_used);
-  std::array<Eigen::Matrix<double, 5, 5>, 3> A;
-  std::array<Eigen::Matrix<double, 5, 1>, 3> b;
-  for (auto& block : A) block.setZero();
-  for (auto& block : b) block.setZero();
+  std::array<ChannelSums, 3> sums;
   const auto tangents = tangents_of(lamp.direction);
   const float* weight = state.weight.data() + static_cast<size_t>(image) * static_cast<size_t>(images.pixels);
   for (int p = 0; p < images.pixels; p += stride) {
     if (weight[p] == 0.0f) continue;
-    const NearLampRow row = near_lamp_row(lamp, tangents, state.points.col(p) - state.scene.center,
-                                          state.normals.col(p), state.scene.lobe_exponent);
+    const Eigen::Vector3f offset = state.points.col(p) - state.scene.center;
+    const Incidence incidence =
+        incidence_of(lamp, tangents, offset, state.normals.col(p), state.scene.lobe_exponent, derivatives);
+    Eigen::Matrix<double, 5, 1> z;
+    z << incidence.derivative.cast<double>(), static_cast<double>(incidence.value), 1;
+    const auto w = static_cast<double>(weight[p]);
     for (int c = 0; c < 3; ++c) {
       if (!images.usable_in(image, c)[p]) continue;
       const float rho = state.albedo(c, p);
-      const double r = static_cast<double>(images.channel(image, c)[p] - rho * row.shading[c]);
-      const double w = static_cast<double>(weight[p]);
+      const float S = lamp.strength[c] * incidence.value + lamp.phi[c];
+      const auto r = static_cast<double>(images.channel(image, c)[p] - rho * S);
       fit.energy += w * r * r;
       fit.samples += w;
       if (!derivatives) continue;
-      // A channel depends on the position and on its own strength and ambient share alone.
-      Eigen::Matrix<double, 5, 1> J;
-      J << row.derivative.row(c).head<3>().cast<double>().transpose(), static_cast<double>(row.derivative(c, 3 + c)), 1;
-      J *= static_cast<double>(rho);
-      A[static_cast<size_t>(c)].noalias() += w * J * J.transpose();
-      b[static_cast<size_t>(c)] += w * r * J;
-    }
-  }
-  for (int c = 0; c < 3; ++c) {
-    const std::array<int, 5> unknowns{0, 1, 2, 3 + c, 6 + c};
-    for (int i = 0; i < 5; ++i) {
-      fit.b[unknowns[static_cast<size_t>(i)]] += b[static_cast<size_t>(c)][i];
+      ChannelSums& sum = sums[static_cast<size_t>(c)];
+      const double wrho = w * static_cast<double>(rho);
+      sum.b += wrho * r * z;
       for (int j = 0; j < 5; ++j)
-        fit.A(unknowns[static_cast<size_t>(i)], unknowns[static_cast<size_t>(j)]) += A[static_cast<size_t>(c)](i, j);
+        for (int i = j; i < 5; ++i) sum.A(i, j) += wrho * static_cast<double>(rho) * z[i] * z[j];
     }
   }
+  for (int c = 0; c < 3; ++c)
+    add_channel(sums[static_cast<size_t>(c)], c, static_cast<double>(lamp.strength[c]), fit);
   return fit;
 }
 
@@ -89,7 +104,8 @@ void lock_unknowns(LampFit& fit, bool lock_direction, bool lock_distance) {
   }
 }
 
-Lamp fit_lamp(const Observations& images, const SurfaceState& state, int image, const NearLampOptions& options) {
+Lamp fit_lamp(const Observations& images, const SurfaceState& state, int image,
+              const NearLampOptions& options) {
   Lamp lamp = state.lamps[static_cast<size_t>(image)];
   if (!lamp.near) return lamp;
   double damping = 1e-4;
@@ -115,28 +131,25 @@ Lamp fit_lamp(const Observations& images, const SurfaceState& state, int image, 
 
 }  // namespace
 
-NearLampRow near_lamp_row(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents, const Eigen::Vector3f& offset,
-                          const Eigen::Vector3f& normal, float m) {
+Incidence incidence_of(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents,
+                       const Eigen::Vector3f& offset, const Eigen::Vector3f& normal, float m,
+                       bool derivatives) {
   const Eigen::Vector3f u = lamp.direction - lamp.inverse_distance * offset;
-  const float u2 = u.squaredNorm(), du = lamp.direction.dot(u);
-  const Eigen::Vector3f v = near_light_vector(lamp.direction, lamp.inverse_distance, offset, m);
-  const float un = u.dot(normal), vn = v.dot(normal);
-  NearLampRow row;
-  row.derivative.setZero();
-  row.derivative.block<3, 3>(0, 6).setIdentity();
-  row.shading = lamp.phi;
-  if (vn <= 0.0f || du <= 0.0f) return row;
-  row.shading += lamp.strength * vn;
-  row.derivative.block<3, 3>(0, 3).diagonal().setConstant(vn);
+  const float u2 = u.squaredNorm(), du = lamp.direction.dot(u), un = u.dot(normal);
+  if (un <= 0.0f || du <= 0.0f) return {};
   // v.n = (u.n) k with k = (d.u)^m |u|^-(3+m); change of u and d gives d(v.n) = k (du.n) + (u.n) dk.
-  const float k = vn / un;
+  const float k = m == 1.0f ? du / (u2 * u2) : std::pow(du / std::sqrt(u2), m) / (u2 * std::sqrt(u2));
+  Incidence result;
+  result.value = un * k;
+  if (!derivatives) return result;
   const auto change = [&](const Eigen::Vector3f& change_u, const Eigen::Vector3f& change_d) {
-    const float dk = k * (m * (lamp.direction.dot(change_u) + u.dot(change_d)) / du - (3 + m) * u.dot(change_u) / u2);
+    const float dk =
+        k * (m * (lamp.direction.dot(change_u) + u.dot(change_d)) / du - (3 + m) * u.dot(change_u) / u2);
     return k * change_u.dot(normal) + un * dk;
   };
-  for (int t = 0; t < 2; ++t) row.derivative.col(t) = lamp.strength * change(tangents.col(t), tangents.col(t));
-  row.derivative.col(2) = lamp.strength * change(-offset, Eigen::Vector3f::Zero());
-  return row;
+  for (int t = 0; t < 2; ++t) result.derivative[t] = change(tangents.col(t), tangents.col(t));
+  result.derivative[2] = change(-offset, Eigen::Vector3f::Zero());
+  return result;
 }
 
 Lamp near_from_far(const Lamp& far, float inverse_distance) {
@@ -153,7 +166,8 @@ std::vector<Lamp> estimate_near_lamps(const Observations& images, const SurfaceS
                                       const NearLampOptions& options) {
   std::vector<Lamp> lamps(state.lamps.size());
   cv::parallel_for_(cv::Range(0, images.images), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) lamps[static_cast<size_t>(i)] = fit_lamp(images, state, i, options);
+    for (int i = range.start; i < range.end; ++i)
+      lamps[static_cast<size_t>(i)] = fit_lamp(images, state, i, options);
   });
   return lamps;
 }

@@ -12,10 +12,10 @@
 namespace rakelight {
 
 struct NearLampOptions {
-  int steps = 3;                     ///< Levenberg-Marquardt steps a call
-  int pixels = 12000;                ///< about so many pixels are used, evenly spread: nine unknowns need no more
-  float max_inverse_distance = 10;   ///< 1/m: no lamp is taken to stand nearer than this to the centre
-  bool fixed_positions = false;      ///< fit strength and ambient share only
+  int steps = 3;       ///< Levenberg-Marquardt steps a call
+  int pixels = 12000;  ///< about so many pixels are used, evenly spread: nine unknowns need no more
+  float max_inverse_distance = 10;  ///< 1/m: no lamp is taken to stand nearer than this to the centre
+  bool fixed_positions = false;     ///< fit strength and ambient share only
 };
 
 /// What the fit knows of a lamp's position.
@@ -32,13 +32,17 @@ Lamp near_from_far(const Lamp& far, float inverse_distance);
 std::vector<Lamp> estimate_near_lamps(const Observations& images, const SurfaceState& state,
                                       const NearLampOptions& options);
 
-/// Residual and derivatives of one sample by (direction tangents (2), kappa, e (3), phi (3)); for the fit and its test.
-struct NearLampRow {
-  Eigen::Vector3f shading;                       ///< a channel
-  Eigen::Matrix<float, 3, 9> derivative;         ///< d shading / d unknowns
+/// max(0, v.n) of the near model (refine/lamp.h) and its derivative by the lamp's direction along two tangents and by
+/// kappa. A channel's shading is e_c value + phi_c.
+struct Incidence {
+  float value = 0;
+  Eigen::Vector3f derivative = Eigen::Vector3f::Zero();
 };
-NearLampRow near_lamp_row(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents, const Eigen::Vector3f& offset,
-                          const Eigen::Vector3f& normal, float lobe_exponent);
+
+/// @param offset p - centre, metres  @param derivatives false: leave them zero
+Incidence incidence_of(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents,
+                       const Eigen::Vector3f& offset, const Eigen::Vector3f& normal, float lobe_exponent,
+                       bool derivatives = true);
 
 /// Position uncertainty of each lamp from the curvature of its fit and the residuals. @param scale residual deviation
 std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, const SurfaceState& state,

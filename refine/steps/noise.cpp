@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "refine/lamp_shading.h"
+
 namespace rakelight {
 namespace {
 
-constexpr int kNoiseBlock = 4;       // depth pixels
-constexpr double kCoverage = 0.5;    // share of a block that must count
+constexpr int kNoiseBlock = 4;     // depth pixels
+constexpr double kCoverage = 0.5;  // share of a block that must count
 
 double deviation(std::vector<double>& sizes) {
   if (sizes.empty()) return 0;
@@ -22,28 +24,43 @@ struct WeightedSum {
   double value = 0, weight = 0;
 };
 
-double image_noise(const PixelGrid& grid, const Observations& images, const SurfaceState& state, int block) {
+/// Sizes of one image's weighted residual over blocks of `block` refined pixels.
+std::vector<double> block_residuals(const PixelGrid& grid, const Observations& images,
+                                    const SurfaceState& state, int image, int block) {
   const int columns = (grid.index.cols + block - 1) / block, rows = (grid.index.rows + block - 1) / block;
-  std::vector<double> sizes;
-  for (int i = 0; i < images.images; ++i) {
-    std::vector<WeightedSum> sums(static_cast<size_t>(columns) * static_cast<size_t>(rows));
-    const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
-    const float* weight = state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
-    for (int p = 0; p < images.pixels; ++p) {
-      if (images.usable_channels(i, p).minCoeff() == 0.0f) continue;
-      const Eigen::Vector3f S =
-          shading(light_at(lamp, state.points.col(p), state.scene), state.normals.col(p), state.attached_shadows);
-      const float modelled = state.albedo.col(p).dot(S);
-      const float seen = images.channel(i, 0)[p] + images.channel(i, 1)[p] + images.channel(i, 2)[p];
+  std::vector<WeightedSum> sums(static_cast<size_t>(columns) * static_cast<size_t>(rows));
+  const float* weight = state.weight.data() + static_cast<size_t>(image) * static_cast<size_t>(images.pixels);
+  ShadingBlock model;
+  for (int begin = 0; begin < images.pixels; begin += kPixelBlock) {
+    const int end = std::min(images.pixels, begin + kPixelBlock);
+    shade(state.lamps[static_cast<size_t>(image)], state, begin, end, model);
+    for (int p = begin; p < end; ++p) {
+      if (images.usable_channels(image, p).minCoeff() == 0.0f) continue;
+      const auto k = static_cast<size_t>(p - begin);
+      const float modelled =
+          state.albedo.col(p).dot(Eigen::Vector3f(model.S[0][k], model.S[1][k], model.S[2][k]));
       const cv::Point at = grid.pixels[static_cast<size_t>(p)];
       WeightedSum& sum = sums[static_cast<size_t>((at.y / block) * columns + at.x / block)];
-      sum.value += static_cast<double>(weight[p] * (modelled - seen));
+      sum.value += static_cast<double>(weight[p] * (modelled - images.radiance_at(image, p).sum()));
       sum.weight += static_cast<double>(weight[p] * weight[p]);
     }
-    for (const WeightedSum& sum : sums) {
-      if (sum.weight > kCoverage * block * block) sizes.push_back(std::abs(sum.value) / std::sqrt(3 * sum.weight));
-    }
   }
+  std::vector<double> sizes;
+  for (const WeightedSum& sum : sums) {
+    if (sum.weight > kCoverage * block * block)
+      sizes.push_back(std::abs(sum.value) / std::sqrt(3 * sum.weight));
+  }
+  return sizes;
+}
+
+double image_noise(const PixelGrid& grid, const Observations& images, const SurfaceState& state, int block) {
+  std::vector<std::vector<double>> parts(static_cast<size_t>(images.images));
+  cv::parallel_for_(cv::Range(0, images.images), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+      parts[static_cast<size_t>(i)] = block_residuals(grid, images, state, i, block);
+  });
+  std::vector<double> sizes;
+  for (const auto& part : parts) sizes.insert(sizes.end(), part.begin(), part.end());
   return deviation(sizes);
 }
 
@@ -61,13 +78,16 @@ double depth_noise(const PixelGrid& grid, const SurfaceState& state, const Depth
     sum.weight += 1;
   }
   std::vector<double> sizes;
-  const auto counts = [](const WeightedSum& sum) { return sum.weight > kCoverage * kNoiseBlock * kNoiseBlock; };
+  const auto counts = [](const WeightedSum& sum) {
+    return sum.weight > kCoverage * kNoiseBlock * kNoiseBlock;
+  };
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x + 1 < columns; ++x) {
       const WeightedSum& a = sums[static_cast<size_t>(y * columns + x)];
       const WeightedSum& b = sums[static_cast<size_t>(y * columns + x + 1)];
       if (!counts(a) || !counts(b)) continue;
-      sizes.push_back(std::abs(a.value / a.weight - b.value / b.weight) / std::sqrt(1 / a.weight + 1 / b.weight));
+      sizes.push_back(std::abs(a.value / a.weight - b.value / b.weight) /
+                      std::sqrt(1 / a.weight + 1 / b.weight));
     }
   }
   return deviation(sizes);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "refine/pixel_blocks.h"
+#include "refine/lamp_shading.h"
 
 namespace rakelight {
 namespace {
@@ -19,7 +19,7 @@ Eigen::Vector3f residual(const Observations& images, const SurfaceState& state, 
 /// Median of |value(image, pixel)| over usable samples and channels of images [first, last).
 template <class Value>
 double median_of_samples(const Observations& images, int first, int last, const Value& value) {
-  constexpr int kSamplesAnImage = 20000;  // enough for a median good to a percent
+  constexpr int kSamplesAnImage = 6000;  // enough for a median good to a percent
   const int step = std::max(1, images.pixels / kSamplesAnImage);
   std::vector<float> sizes;
   for (int i = first; i < last; ++i) {
@@ -57,14 +57,27 @@ std::vector<float> cauchy_weights(const Observations& images, const SurfaceState
   std::vector<float> weight(images.usable.size() / 3);
   const float inverse = static_cast<float>(1.0 / (scale * scale));
   for_each_block(images.pixels, [&](int begin, int end) {
+    const int count = end - begin;
+    ShadingBlock model;
+    std::array<float, kPixelBlock> squares, channels;
     for (int i = 0; i < images.images; ++i) {
-      float* w = weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
-      for (int p = begin; p < end; ++p) {
-        const Eigen::Vector3f usable = images.usable_channels(i, p);
-        const float channels = usable.sum();
-        const float r2 = usable.dot(residual(images, state, i, p).cwiseAbs2());
-        w[p] = channels > 0 ? 1.0f / (1.0f + r2 * inverse / channels) : 0.0f;
+      shade(state.lamps[static_cast<size_t>(i)], state, begin, end, model);
+      std::fill_n(squares.begin(), count, 0.0f);
+      std::fill_n(channels.begin(), count, 0.0f);
+      for (int c = 0; c < 3; ++c) {
+        const float* S = model.S[static_cast<size_t>(c)].data();
+        const float* I = images.channel(i, c) + begin;
+        const unsigned char* usable = images.usable_in(i, c) + begin;
+        for (size_t k = 0; k < static_cast<size_t>(count); ++k) {
+          const float r = state.albedo(c, begin + static_cast<int>(k)) * S[k] - I[k];
+          const float u = static_cast<float>(usable[k]);
+          squares[k] += u * r * r;
+          channels[k] += u;
+        }
       }
+      float* w = weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels) + begin;
+      for (size_t k = 0; k < static_cast<size_t>(count); ++k)
+        w[k] = channels[k] > 0 ? channels[k] / (channels[k] + squares[k] * inverse) : 0.0f;
     }
   });
   return weight;

@@ -27,7 +27,7 @@ Eigen::VectorXd smoothed(const PixelGrid& grid, const Eigen::VectorXd& values) {
 }  // namespace
 
 Uncertainty sample_uncertainty(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& zeta,
-                               const DepthSolver& solver, double residual_deviation, int samples) {
+                               DepthSolver& solver, double residual_deviation, int samples) {
   if (samples == 0) return {};
   const Eigen::Matrix3Xf normals = surface_normals(grid, corners, zeta);
   Eigen::VectorXd depth = Eigen::VectorXd::Zero(grid.size()), normal = depth, white(grid.size());

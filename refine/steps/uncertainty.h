@@ -23,6 +23,6 @@ struct Uncertainty {
 /// @param solver has solved the last system  @param residual_deviation s above  @param samples 0: an empty result
 /// The samples are the same at every call: the result is reproducible.
 Uncertainty sample_uncertainty(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& zeta,
-                               const DepthSolver& solver, double residual_deviation, int samples);
+                               DepthSolver& solver, double residual_deviation, int samples);
 
 }  // namespace rakelight

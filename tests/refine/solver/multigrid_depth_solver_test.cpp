@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The multigrid solver against the exact one, on the kind of system that depth steps have: a Laplacian of widely varying
+// strength, a weak pull to the sensor, a mask with a hole and frayed borders.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <opencv2/core/utility.hpp>
+#include <random>
+
+#include "refine/solver/depth_solver.h"
+#include "refine/solver/multigrid.h"
+#include "refine/steps/super_resolution.h"
+
+namespace rakelight {
+namespace {
+
+PixelGrid frayed_grid(int width, int height) {
+  cv::Mat1b mask(height, width, uchar{255});
+  std::mt19937 random(3);
+  for (int v = 0; v < height; ++v) {
+    const int left = static_cast<int>(random() % 5), right = static_cast<int>(random() % 5);
+    mask.row(v).colRange(0, left).setTo(0);
+    mask.row(v).colRange(width - right, width).setTo(0);
+  }
+  mask(cv::Rect(width / 3, height / 3, width / 7, height / 5)).setTo(0);
+  return make_pixel_grid({width, height, 500, 500, width / 2.0, height / 2.0, {}}, mask);
+}
+
+/// sum of a_k (x_p - x_q)^2 over edges and diagonals of strength 1 to `contrast`, plus the sensor's pull.
+struct RoughSystem {
+  PixelGrid grid;
+  DepthCells cells;
+  DepthSystem system;
+
+  RoughSystem(int width, int height, int scale, double contrast)
+      : grid(frayed_grid(width, height)), cells(make_cells(grid, scale)), system(grid.size()) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const auto couple = [&](std::vector<double>& entries, int p, int q) {
+      if (q < 0) return;
+      const double strength = std::pow(contrast, uniform(random));
+      entries[static_cast<size_t>(p)] -= strength;
+      system.diagonal[static_cast<size_t>(p)] += strength;
+      system.diagonal[static_cast<size_t>(q)] += strength;
+    };
+    for (int p = 0; p < grid.size(); ++p) {
+      const auto i = static_cast<size_t>(p);
+      couple(system.right, p, grid.neighbor[kRight][i]);
+      couple(system.down, p, grid.neighbor[kDown][i]);
+      system.diagonal[i] += 1e-4;
+      system.rhs[p] = uniform(random) - 0.5;
+    }
+    system.cell_weight = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cells.pixels_of.size()), 1e-2);
+  }
+};
+
+double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return (a - b).norm() / b.norm();
+}
+
+TEST(MultigridDepthSolver, AgreesWithTheExactSolver) {
+  for (const int scale : {1, 2, 3}) {
+    for (const auto& [width, height] : {std::pair(96, 61), std::pair(37, 80), std::pair(5, 4)}) {
+      const RoughSystem rough(width, height, scale, 100);
+      Eigen::VectorXd fast, exact;
+      ASSERT_TRUE(make_multigrid_depth_solver(rough.grid, rough.cells)->solve(rough.system, fast));
+      ASSERT_TRUE(make_cholesky_depth_solver(rough.grid, rough.cells)->solve(rough.system, exact));
+      EXPECT_LT(relative_difference(fast, exact), 1e-3) << width << "x" << height << ", scale " << scale;
+    }
+  }
+}
+
+TEST(MultigridDepthSolver, GivesTheSameBytesForAnyNumberOfThreads) {
+  const RoughSystem rough(300, 200, 2, 30);
+  const auto solve_with = [&](int threads) {
+    cv::setNumThreads(threads);
+    Eigen::VectorXd x;
+    EXPECT_TRUE(make_multigrid_depth_solver(rough.grid, rough.cells)->solve(rough.system, x));
+    return x;
+  };
+  const int before = cv::getNumThreads();
+  const Eigen::VectorXd one = solve_with(1), three = solve_with(3);
+  cv::setNumThreads(before);
+  EXPECT_EQ(one, three);
+}
+
+TEST(MultigridDepthSolver, LeavesASystemItCannotSolveToTheExactOne) {
+  RoughSystem rough(40, 30, 1, 10);
+  rough.system.diagonal[50] = -5;  // not positive definite: the exact solver refuses it too
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(3);
+  EXPECT_FALSE(make_multigrid_depth_solver(rough.grid, rough.cells)->solve(rough.system, x));
+  EXPECT_EQ(x, Eigen::VectorXd::Ones(3));
+  rough.system.rhs[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(make_multigrid_depth_solver(rough.grid, rough.cells)->solve(rough.system, x));
+}
+
+TEST(MultigridDepthSolver, DrawsTheExactSolversSamples) {
+  const RoughSystem rough(60, 40, 2, 10);
+  const auto fast = make_multigrid_depth_solver(rough.grid, rough.cells);
+  const auto exact = make_cholesky_depth_solver(rough.grid, rough.cells);
+  Eigen::VectorXd x;
+  ASSERT_TRUE(fast->solve(rough.system, x));
+  ASSERT_TRUE(exact->solve(rough.system, x));
+  const Eigen::VectorXd white = Eigen::VectorXd::LinSpaced(rough.grid.size(), -2, 2);
+  EXPECT_TRUE(fast->sample(white).isApprox(exact->sample(white), 1e-12));
+}
+
+/// A full rectangle of the 5-point Laplacian plus a little.
+StencilGrid laplacian(int width, int height, float more) {
+  StencilGrid A(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      A.diagonal[A.at(x, y)] = 4 + more;
+      if (x + 1 < width) A.right[A.at(x, y)] = -1;
+      if (y + 1 < height) A.down[A.at(x, y)] = -1;
+    }
+  }
+  return A;
+}
+
+TEST(Multigrid, IsSymmetric) {
+  const StencilGrid A = laplacian(45, 38, 0.01f);
+  Multigrid multigrid;
+  ASSERT_TRUE(multigrid.setup(A));
+  Eigen::VectorXf a = Eigen::VectorXf::Zero(A.size()), b = a, Ma, Mb;
+  for (int k = 0; k < 200; ++k) {
+    a[A.at(k % 45, (k * 7) % 38)] = static_cast<float>(k % 13) - 6;
+    b[A.at((k * 11) % 45, k % 38)] = static_cast<float>(k % 7) - 3;
+  }
+  multigrid.apply(a, Ma);
+  multigrid.apply(b, Mb);
+  EXPECT_NEAR(a.dot(Mb) / b.dot(Ma), 1, 1e-4);
+}
+
+TEST(Multigrid, OneCycleRemovesNineTenthsOfTheErrorAtAnySize) {
+  for (const int size : {33, 129, 400}) {
+    const StencilGrid A = laplacian(size, size - 5, 1e-3f);
+    Multigrid multigrid;
+    ASSERT_TRUE(multigrid.setup(A));
+    Eigen::VectorXf truth = Eigen::VectorXf::Zero(A.size()), r, found;
+    for (int y = 0; y < A.height; ++y)
+      for (int x = 0; x < A.width; ++x)
+        truth[A.at(x, y)] =
+            std::sin(0.02f * static_cast<float>(x * y)) + static_cast<float>((x * 5 + y * 3) % 4);
+    A.multiply(truth, r);
+    multigrid.apply(r, found);
+    Eigen::VectorXf miss = truth - found, A_miss;
+    A.multiply(miss, A_miss);
+    EXPECT_LT(std::sqrt(miss.dot(A_miss) / truth.dot(r)), 0.1f) << size;
+  }
+}
+
+}  // namespace
+}  // namespace rakelight
