@@ -40,29 +40,21 @@ double cauchy_annealing(int iteration) {
   return 1 + (kFirst - 1) * std::max(0, kWarmUp - iteration) / kWarmUp;
 }
 
-/// lambda_z: as given, or the ratio of the measured error variances (refine/steps/noise.h).
-class SensorWeight {
- public:
-  SensorWeight(const RefineProblem& problem, const RefineOptions& options, double model_error)
-      : problem_(problem), options_(options.depth), model_error_(model_error) {}
+/// Errors of the model agree over the s x s refined pixels of a depth pixel: together they weigh as s^2 samples, but miss
+/// as one.
+MeasuredNoise measured_errors(const RefineProblem& problem, const SurfaceState& state, int iteration,
+                              double residual_scale) {
+  if (iteration <= kWarmUp) return {problem.scale * residual_scale, 3 * problem.depth_noise};
+  const double depth = measure_sensor_noise(problem.grid, state, problem.prior, problem.scale);
+  return {problem.scale * residual_scale, std::max(depth, 2 * problem.depth_noise)};
+}
 
-  double operator()(const SurfaceState& state, int iteration, MeasuredNoise& noise) const {
-    if (options_.sensor_weight > 0) return options_.sensor_weight;
-    noise = {model_error_, 3 * problem_.depth_noise};
-    if (iteration > kWarmUp) {
-      noise = measure_noise(problem_.grid, problem_.images, state, problem_.prior, problem_.scale);
-      noise.image = std::max(noise.image, model_error_);
-      noise.depth = std::max(noise.depth, 2 * problem_.depth_noise);
-    }
-    const double ratio = noise.image / noise.depth;
-    return options_.noise_ratio * ratio * ratio;
-  }
-
- private:
-  const RefineProblem& problem_;
-  const DepthOptions& options_;
-  double model_error_;
-};
+/// lambda_z: as given, or from the ratio of the measured error variances (refine/steps/noise.h).
+double sensor_weight(const DepthOptions& options, const MeasuredNoise& noise) {
+  if (options.sensor_weight > 0) return options.sensor_weight;
+  const double ratio = noise.image / noise.depth;
+  return options.noise_ratio * ratio * ratio;
+}
 
 double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
   return std::sqrt((after.array().exp() - before.array().exp()).square().mean());
@@ -71,8 +63,11 @@ double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after)
 void require_enough_images(const Observations& images) {
   constexpr int kLeastImages = 4;  // as many as unknowns of a lit pixel: shape (2), albedo and ambient share
   if (images.images >= kLeastImages) return;
-  throw InputError("the stack", "has " + std::to_string(images.images) + " lit images, and the multi-light method needs at least 4",
-                   "record more lamps, or use --method rgb-ratio for one image under red, green and blue lamps, fusion-like for any one");
+  throw InputError(
+      "the stack",
+      "has " + std::to_string(images.images) + " lit images, and the multi-light method needs at least 4",
+      "record more lamps, or use --method rgb-ratio for one image under red, green and blue lamps, "
+      "fusion-like for any one");
 }
 
 void require_three_directions(const Observations& images, const SurfaceState& state, MethodResult& result) {
@@ -81,23 +76,27 @@ void require_three_directions(const Observations& images, const SurfaceState& st
   result.quality["lamp_spread"] = ratio;
   if (ratio < 0.03) {
     throw InputError("the " + std::to_string(images.images) + " images",
-                     "their lamps shine from directions in one plane (or all from one), which leaves the shape undetermined",
+                     "their lamps shine from directions in one plane (or all from one), which leaves the "
+                     "shape undetermined",
                      "add images lit from other sides");
   }
   if (ratio < 0.1) {
-    result.warnings.push_back("the lamps' directions are nearly in one plane: the shape across it is poorly determined");
+    result.warnings.push_back(
+        "the lamps' directions are nearly in one plane: the shape across it is poorly determined");
   }
 }
 
 /// Whether iteration reports say that the method has settled.
-bool settled(const RefineProblem& problem, const RefineOptions& options, const std::vector<IterationReport>& reports) {
+bool settled(const RefineProblem& problem, const RefineOptions& options,
+             const std::vector<IterationReport>& reports) {
   const IterationReport& last = reports.back();
   if (options.preset == Preset::paper) {  // Alg. 3, line 2
     if (reports.size() < 2) return false;
     const double previous = reports[reports.size() - 2].energy;
     return std::abs(last.energy - previous) <= options.tolerance * previous;
   }
-  return last.depth_change_mm < 1e3 * options.tolerance * problem.sensor.noise_m && last.index > options.min_iterations;
+  return last.depth_change_mm < 1e3 * options.tolerance * problem.sensor.noise_m &&
+         last.index > options.min_iterations;
 }
 
 }  // namespace
@@ -112,7 +111,6 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
                           ? make_cholesky_depth_solver(problem.grid, problem.prior.cells)
                           : make_multigrid_depth_solver(problem.grid, problem.prior.cells);
   const double model_error = options.trust.model_error * median_radiance(images);
-  const SensorWeight sensor_weight(problem, options, model_error);
   LampEstimator lamps(options.lamps);
   DepthPrior prior = problem.prior;
   MeasuredNoise noise;
@@ -123,16 +121,17 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
     state.points = surface_points(problem.grid, state.zeta);
 
-    lamps.update(images, state, t);                                                   // Eq. (26)
+    lamps.update(images, state, t);  // Eq. (26)
     if (t == 1) require_three_directions(images, state, result);
-    state.albedo = estimate_albedo(images, state);                                    // Eq. (27)
+    state.albedo = estimate_albedo(images, state);  // Eq. (27)
     normalize_albedo(state);
     report.residual_scale = std::max(residual_scale(images, state), model_error);
     if (options.trust.cauchy_scale > 0)
-      state.weight = cauchy_weights(
-          images, state, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale);
+      state.weight = cauchy_weights(images, state,
+                                    cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale);
 
-    prior.cell_weight = sensor_weight(state, t, noise) * problem.prior.cell_weight;
+    noise = measured_errors(problem, state, t, t <= kWarmUp ? model_error : report.residual_scale);
+    prior.cell_weight = sensor_weight(options.depth, noise) * problem.prior.cell_weight;
     const auto tensors = accumulate_tensors(images, state);
     const double edge_weight = t > kWarmUp ? options.trust.edge_weight : 0;
     const auto weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
@@ -150,7 +149,8 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
 
     if (!step.solved) {
       result.termination = Termination::diverged;
-      result.message = "the depth system was singular at iteration " + std::to_string(t) + "; the state before it is given";
+      result.message = "the depth system was singular at iteration " + std::to_string(t) +
+                       "; the state before it is given";
       break;
     }
     if (lamps.settled() && settled(problem, options, result.iterations)) {
@@ -160,13 +160,14 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     }
   }
   if (result.termination == Termination::max_iterations)
-    result.message = "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations, still moving";
+    result.message =
+        "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations, still moving";
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   result.message += "; " + lamps.explanation();
-  result.uncertainty = sample_uncertainty(problem.grid, problem.corners, state.zeta, *solver,
-                                          std::sqrt(options.depth.noise_ratio) * noise.image,
-                                          result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
+  result.uncertainty = sample_uncertainty(
+      problem.grid, problem.corners, state.zeta, *solver, std::sqrt(options.depth.noise_ratio) * noise.image,
+      result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
   result.quality["far_over_near_residual"] = lamps.far_over_near();
   result.quality["image_noise"] = noise.image;
   result.quality["depth_noise_log"] = noise.depth;

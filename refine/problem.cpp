@@ -16,14 +16,16 @@ int resolved_scale(const LightStack& stack, int wanted) {
   if (wanted == 0) return finest;
   if (wanted >= 1 && wanted <= finest) return wanted;
   throw UsageError("scale " + std::to_string(wanted) + " is not possible: the colour images are " +
-                   std::to_string(finest) + " times as fine as the depth; use --scale 1 to " + std::to_string(finest));
+                   std::to_string(finest) + " times as fine as the depth; use --scale 1 to " +
+                   std::to_string(finest));
 }
 
 /// The stack's mask on a grid of the colour camera's view; without a mask, where the sensor has depth.
 cv::Mat1b mask_on(const LightStack& stack, const Camera& camera) {
   cv::Mat1b mask;
   if (!stack.mask.empty()) {
-    cv::resize(stack.mask, mask, camera.size(), 0, 0, stack.mask.cols > camera.width ? cv::INTER_AREA : cv::INTER_NEAREST);
+    cv::resize(stack.mask, mask, camera.size(), 0, 0,
+               stack.mask.cols > camera.width ? cv::INTER_AREA : cv::INTER_NEAREST);
     return cv::Mat(mask >= 128);
   }
   cv::Mat1b seen;
@@ -31,7 +33,10 @@ cv::Mat1b mask_on(const LightStack& stack, const Camera& camera) {
     if (frame.depth.empty()) continue;
     const cv::Mat1f depth = registered_depth(stack, frame);
     const cv::Mat1b here = cv::Mat(depth == depth);
-    if (seen.empty()) seen = here; else seen |= here;
+    if (seen.empty())
+      seen = here;
+    else
+      seen |= here;
   }
   if (!seen.empty()) cv::resize(seen, mask, camera.size(), 0, 0, cv::INTER_NEAREST);
   return mask;
@@ -56,12 +61,12 @@ DepthPrior make_prior(const PixelGrid& grid, const SensorDepth& sensor, int scal
 }
 
 /// 1 where the step to the neighbour in `direction` crosses a jump of the start: steeper than a surface seen at
-/// `kGrazing` would be, beyond the sensor's noise.
+/// `kGrazingSlope` would be, beyond the sensor's noise (which the start has mostly lost).
 std::vector<unsigned char> depth_jumps(const PixelGrid& grid, const Eigen::VectorXd& zeta, Neighbor direction,
                                        double noise) {
-  constexpr double kGrazingSlope = 8.0;  // tan 83 deg
+  constexpr double kGrazingSlope = 5.0;  // tan 79 deg
   const double focal = direction == kRight ? grid.camera.fx : grid.camera.fy;
-  const double limit = kGrazingSlope / focal + 6 * noise;
+  const double limit = kGrazingSlope / focal + noise;
   std::vector<unsigned char> cut(static_cast<size_t>(grid.size()), 0);
   for (int p = 0; p < grid.size(); ++p) {
     const int q = grid.neighbor[direction][static_cast<size_t>(p)];

@@ -170,7 +170,7 @@ std::vector<std::array<float, 4>> corner_weights(const PixelGrid& grid, const Co
   const float half = edge_weight > 0 ? static_cast<float>(edge_weight) * median_energy(corners, weights) : 0;
   for (int p = 0; p < grid.size(); ++p) {
     const size_t at = static_cast<size_t>(p);
-    for (float& w : weights[at]) w = corners.weight[at] / (half > 0 ? 1.0f + w / half : 1.0f);
+    for (float& w : weights[at]) w = corners.weight[at] / (half > 0 ? std::sqrt(1.0f + w / half) : 1.0f);
   }
   return weights;
 }

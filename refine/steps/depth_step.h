@@ -41,8 +41,9 @@ struct DepthProblem {
   const DepthPrior& prior;
 };
 
-/// Weight of each corner: 1 / corners of the pixel, divided by 1 + e / (edge_weight median e), e its energy at zeta, so
-/// that gradients do not cross occlusions.
+/// Weight of each corner: 1 / corners of the pixel, divided by sqrt(1 + e / (edge_weight median e)), e its energy at zeta,
+/// so that gradients do not cross occlusions. The root makes a corner's say level off rather than vanish: without it, where
+/// lamps miss a little everywhere, the surface tears along lines instead of bending.
 std::vector<std::array<float, 4>> corner_weights(const PixelGrid& grid, const CornerList& corners,
                                                  const std::vector<PhotometricTensor>& tensors,
                                                  const Eigen::VectorXd& zeta, double edge_weight);
@@ -51,7 +52,8 @@ std::vector<std::array<float, 4>> corner_weights(const PixelGrid& grid, const Co
 double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta);
 
 /// The system whose solution is the step: half the Hessian's approximation and minus half the gradient at zeta.
-DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization);
+DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
+                         Linearization linearization);
 
 struct DepthStepReport {
   bool solved = false;

@@ -64,7 +64,10 @@ double image_noise(const PixelGrid& grid, const Observations& images, const Surf
   return deviation(sizes);
 }
 
-double depth_noise(const PixelGrid& grid, const SurfaceState& state, const DepthPrior& prior, int scale) {
+}  // namespace
+
+double measure_sensor_noise(const PixelGrid& grid, const SurfaceState& state, const DepthPrior& prior,
+                            int scale) {
   const int size = scale * kNoiseBlock;
   const int columns = (grid.index.cols + size - 1) / size, rows = (grid.index.rows + size - 1) / size;
   std::vector<WeightedSum> sums(static_cast<size_t>(columns) * static_cast<size_t>(rows));
@@ -93,11 +96,10 @@ double depth_noise(const PixelGrid& grid, const SurfaceState& state, const Depth
   return deviation(sizes);
 }
 
-}  // namespace
-
 MeasuredNoise measure_noise(const PixelGrid& grid, const Observations& images, const SurfaceState& state,
                             const DepthPrior& prior, int scale) {
-  return {image_noise(grid, images, state, kNoiseBlock * scale), depth_noise(grid, state, prior, scale)};
+  return {image_noise(grid, images, state, kNoiseBlock * scale),
+          measure_sensor_noise(grid, state, prior, scale)};
 }
 
 }  // namespace rakelight

@@ -6,7 +6,9 @@
 // One constant cannot serve: 100 suits a head at 1 m and 3 mm noise, 1e4 a bear at 1.5 m and 0.7 mm. Statistics asks for the
 // ratio of the two error variances. Both errors are correlated over neighbouring pixels (model error there, the sensor's
 // block matching here), and only what survives averaging matters for the shape's broad form; so both are measured as means
-// over blocks, scaled by the square root of the block's size: for white noise that is the deviation of one sample.
+// over blocks, scaled by the square root of the block's size: for white noise that is the deviation of one sample. Multi-light takes the images'
+// error from its residual scale instead (refine/steps/robust_weights.h): a shape that is tied to the sensor misses the
+// images broadly, and measured over blocks that would tie it all the more.
 #pragma once
 
 #include "refine/observations.h"
@@ -27,5 +29,10 @@ struct MeasuredNoise {
 /// @param scale refined grid / depth grid
 MeasuredNoise measure_noise(const PixelGrid& grid, const Observations& images, const SurfaceState& state,
                             const DepthPrior& prior, int scale);
+
+/// The depth's alone: deviation of a log-depth reading; 0 when no block has enough readings. An offset of the refined
+/// shape does not count as the sensor's error; a tilt does, a little.
+double measure_sensor_noise(const PixelGrid& grid, const SurfaceState& state, const DepthPrior& prior,
+                            int scale);
 
 }  // namespace rakelight
