@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <random>
 
 #include "tests/refine/dense_system.h"
@@ -263,15 +265,15 @@ TEST(CornerWeights, AreTheShareOfTheCornerWithoutEdgeWeighting) {
   for (size_t p = 0; p < weights.size(); ++p) EXPECT_EQ(weights[p][0], problem.corners.weight[p]);
 }
 
-TEST(CornerWeights, FallToHalfAtTheEdgeWeightTimesTheMedianEnergy) {
+TEST(CornerWeights, FallByTheRootOfTwoAtTheEdgeWeightTimesTheMedianEnergy) {
   const PixelGrid grid = make_pixel_grid({5, 5, 20, 20, 2, 2, {}}, cv::Mat1b(5, 5, uchar{255}));
   const CornerList corners = make_corners(grid, Stencil::symmetric);
   std::vector<PhotometricTensor> tensors(25);
   for (PhotometricTensor& tensor : tensors) tensor.e0 = 1;
   tensors[12].e0 = 10;
   const auto weights = corner_weights(grid, corners, tensors, Eigen::VectorXd::Zero(25), 10);
-  EXPECT_FLOAT_EQ(weights[12][0], 0.25f / 2);
-  EXPECT_FLOAT_EQ(weights[11][0], 0.25f / 1.1f);
+  EXPECT_FLOAT_EQ(weights[12][0], 0.25f / std::sqrt(2.0f));
+  EXPECT_FLOAT_EQ(weights[11][0], 0.25f / std::sqrt(1.1f));
 }
 
 }  // namespace
