@@ -44,7 +44,7 @@ double cauchy_annealing(int iteration) {
 /// as one.
 MeasuredNoise measured_errors(const RefineProblem& problem, const SurfaceState& state, int iteration,
                               double residual_scale) {
-  if (iteration <= kWarmUp) return {problem.scale * residual_scale, 3 * problem.depth_noise};
+  if (iteration <= kWarmUp) return {residual_scale, 3 * problem.depth_noise};
   const double depth = measure_sensor_noise(problem.grid, state, problem.prior, problem.scale);
   return {problem.scale * residual_scale, std::max(depth, 2 * problem.depth_noise)};
 }
