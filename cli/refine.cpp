@@ -28,7 +28,7 @@ constexpr int kNotConverged = 7;
 
 struct Arguments {
   std::filesystem::path stack, output, config;
-  std::optional<std::string> method, preset, mask, response, lamps, solver;
+  std::optional<std::string> method, preset, mask, response, lamps, lamp_positions, solver;
   std::optional<int> scale, iterations, threads, frame;
   bool json = false, no_smoothness = false;
 };
@@ -68,6 +68,8 @@ RefineOptions options_of(const Arguments& arguments) {
   if (arguments.no_smoothness) options.depth.smoothness = 0;
   options.threads = arguments.threads.value_or(options.threads);
   options.lamps.model = value_named<LampModel>(arguments.lamps).value_or(options.lamps.model);
+  options.lamps.positions =
+      value_named<LampPositions>(arguments.lamp_positions).value_or(options.lamps.positions);
   options.depth.solver = value_named<Solver>(arguments.solver).value_or(options.depth.solver);
   return options;
 }
@@ -144,6 +146,10 @@ void add_refine_command(CLI::App& program, int& exit_code) {
       ->add_option("--lamps", arguments->lamps,
                    "Lamp model: auto (default) takes near lamps if they explain the images clearly better")
       ->check(CLI::IsMember(names_of<LampModel>()));
+  command
+      ->add_option("--lamp-positions", arguments->lamp_positions,
+                   "Of near lamps: estimated (default), start from the stack's position_m, or fixed there")
+      ->check(CLI::IsMember(names_of<LampPositions>()));
   command
       ->add_option("--scale", arguments->scale,
                    "Refined grid / depth grid, 1 to 4; default: as fine as the colour images")

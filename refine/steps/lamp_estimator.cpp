@@ -8,6 +8,7 @@
 
 #include "refine/steps/lighting.h"
 #include "refine/steps/robust_weights.h"
+#include "stack/errors.h"
 
 namespace rakelight {
 namespace {
@@ -91,8 +92,12 @@ void LampEstimator::start_near(const Observations& images, SurfaceState& state) 
     Lamp& lamp = state.lamps[i];
     if (images.colored_lamps[i]) continue;  // three lamps at once have no one position
     lamp = near_from_far(lamp, kStartInverseDistance);
-    if (options_.positions != LampPositions::estimated && images.lamp_positions[i])
-      lamp = at_position(lamp, *images.lamp_positions[i], state.scene);
+    if (options_.positions == LampPositions::estimated) continue;
+    if (!images.lamp_positions[i]) {
+      throw InputError("light " + images.light_ids[i], "has no position_m in the stack",
+                       "give it one, or let positions be estimated (--lamp-positions estimated)");
+    }
+    lamp = at_position(lamp, *images.lamp_positions[i], state.scene);
   }
 }
 

@@ -22,6 +22,7 @@ class LampEstimator {
   explicit LampEstimator(const LampOptions& options) : options_(options) {}
 
   /// Estimates the state's lamps for outer iteration `iteration` (from 1). Call it in order.
+  /// @throws InputError when positions are to be taken from the stack and a lamp has none
   void update(const Observations& images, SurfaceState& state, int iteration);
 
   /// Whether the last update moved the lamps too little to matter.

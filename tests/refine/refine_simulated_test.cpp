@@ -8,6 +8,7 @@
 #include "refine/evaluate.h"
 #include "refine/refine.h"
 #include "simulate/simulate.h"
+#include "stack/errors.h"
 
 namespace rakelight {
 namespace {
@@ -67,6 +68,40 @@ TEST(RefineSimulated, NearLampsAreToldFromFarOnes) {
   EXPECT_THAT(near.result.message, testing::HasSubstr("near lamps"));
   EXPECT_TRUE(near.result.lights.front().position_m.has_value());
   expect_at_most(near, 1.0, 0.8);
+}
+
+/// A vase under near lamps whose positions the stack tells.
+Simulated scan_with_positions() {
+  SimulateOptions options = rig(Realism::real, SceneKind::vase, 1);
+  options.lamps.near = true;
+  options.lamps.write_positions = true;
+  return simulate_stack(options);
+}
+
+RefineOptions with_positions(LampPositions positions) {
+  RefineOptions options;
+  options.lamps.model = LampModel::near;
+  options.lamps.positions = positions;
+  return options;
+}
+
+TEST(RefineSimulated, LampsAreHeldAtTheStacksPositionsWhenThatIsAsked) {
+  const Simulated scan = scan_with_positions();
+  const RefineResult fixed = refine_depth(scan.stack, with_positions(LampPositions::fixed));
+  const RefineResult started = refine_depth(scan.stack, with_positions(LampPositions::start));
+  double moved = 0;
+  for (size_t i = 0; i < fixed.lights.size(); ++i) {
+    const Eigen::Vector3d truth = *scan.stack.lights[i].position_m;
+    EXPECT_LT((*fixed.lights[i].position_m - truth).norm(), 1e-3) << fixed.lights[i].id;
+    moved += (*started.lights[i].position_m - truth).norm();
+  }
+  EXPECT_GT(moved, 1e-2);
+}
+
+TEST(RefineSimulated, APositionThatTheStackDoesNotTellIsAskedFor) {
+  Simulated scan = scan_with_positions();
+  scan.stack.lights[2].position_m.reset();
+  EXPECT_THROW(refine_depth(scan.stack, with_positions(LampPositions::fixed)), InputError);
 }
 
 }  // namespace
