@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Lamps, switched so that none is ever left on. Read this header first.
+//
+//     Lights lights(ids, open_gpio_bank(lines), options);   // everything is off now
+//     lights.show({"white-3"});                             // all off, then this one on
+//     lights.all_off();                                     // also on destruction, on any way out
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rakelight {
+
+/// A bank of output lines that take logical levels (true = lamp lit; active-low is the backend's business).
+class LineBank {
+public:
+  virtual ~LineBank() = default;
+  virtual std::size_t size() const = 0;
+  /// Sets every line. `lit.size() == size()`. @throws std::system_error naming what was attempted on which line.
+  virtual void write(const std::vector<bool>& lit) = 0;
+};
+
+/// When a lamp was switched, on the host's monotonic clock, in microseconds: the edge lies between the two.
+struct SwitchTime {
+  std::int64_t before_us = 0;  ///< before the call that switches
+  std::int64_t after_us = 0;   ///< after it has returned
+};
+
+struct LightsOptions {
+  std::chrono::milliseconds max_on{2000};  ///< a lamp lit for longer is switched off by the watchdog
+};
+
+/// Lamps by name over a bank. Thread-safe. Off on construction and destruction.
+class Lights {
+public:
+  /// `ids[k]` names line k of `bank`. @throws std::system_error if the lamps cannot be switched off.
+  Lights(std::vector<std::string> ids, std::unique_ptr<LineBank> bank, LightsOptions options = {});
+  ~Lights();
+  Lights(const Lights&) = delete;
+  Lights& operator=(const Lights&) = delete;
+
+  const std::vector<std::string>& ids() const;
+  /// All off, then exactly these on. An empty list is all_off(). @throws std::invalid_argument for an unknown id.
+  SwitchTime show(const std::vector<std::string>& ids);
+  SwitchTime all_off();
+  /// Whether the watchdog has had to switch a lamp off since the last show().
+  bool watchdog_tripped() const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rakelight
