@@ -29,7 +29,7 @@ constexpr int kNotConverged = 7;
 struct Arguments {
   std::filesystem::path stack, output, config;
   std::optional<std::string> method, preset, mask, response, lamps, lamp_positions, solver;
-  std::optional<int> scale, iterations, threads, frame;
+  std::optional<int> scale, iterations, threads, frame, harmonics;
   bool json = false, no_smoothness = false;
 };
 
@@ -70,6 +70,7 @@ RefineOptions options_of(const Arguments& arguments) {
   options.lamps.model = value_named<LampModel>(arguments.lamps).value_or(options.lamps.model);
   options.lamps.positions =
       value_named<LampPositions>(arguments.lamp_positions).value_or(options.lamps.positions);
+  options.lamps.harmonics = arguments.harmonics.value_or(options.lamps.harmonics);
   options.depth.solver = value_named<Solver>(arguments.solver).value_or(options.depth.solver);
   return options;
 }
@@ -150,6 +151,10 @@ void add_refine_command(CLI::App& program, int& exit_code) {
       ->add_option("--lamp-positions", arguments->lamp_positions,
                    "Of near lamps: estimated (default), start from the stack's position_m, or fixed there")
       ->check(CLI::IsMember(names_of<LampPositions>()));
+  command
+      ->add_option("--harmonics", arguments->harmonics,
+                   "Order of the light's spherical harmonics: 1 (default), or 2 for broad and ambient light")
+      ->check(CLI::Range(1, 2));
   command
       ->add_option("--scale", arguments->scale,
                    "Refined grid / depth grid, 1 to 4; default: as fine as the colour images")

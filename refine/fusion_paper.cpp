@@ -34,7 +34,7 @@ Eigen::VectorXd channel_of(const Observations& image, int c) {
 MethodResult refine_fusion_as_printed(const RefineProblem& problem, const RefineOptions& options,
                                       const FusionModel& model, const IterationCallback& after_iteration) {
   MethodResult result;
-  SurfaceState& state = result.state = initial_shading_state(problem, options);
+  SurfaceState& state = result.state = initial_state(problem, options);
   const Observations image = grey(problem.images);
   const Eigen::VectorXd I = channel_of(image, 0);
   const Eigen::VectorXd z0 = problem.prior.start.array().exp().matrix() / model.unit_m;
@@ -43,10 +43,12 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
 
   state.normals = orthographic_normals(problem.corners, z, k);
   state.lamps = estimate_far_lamps(image, state);  // Eq. (9)
-  Eigen::Vector4d s;
-  s << state.lamps[0].l.row(0).cast<double>().transpose(), static_cast<double>(state.lamps[0].phi[0]);
-  const Eigen::VectorXd S = (state.normals.cast<double>().transpose() * s.head<3>()).array().matrix() +
-                            Eigen::VectorXd::Constant(z.size(), s[3]);
+  const Lamp lamp = state.lamps.front();
+  Eigen::VectorXd S(z.size());
+  for (int p = 0; p < problem.grid.size(); ++p) {
+    const Eigen::Vector3f n = state.normals.col(p);
+    S[p] = static_cast<double>(shading(light_at(lamp, state.points.col(p), n, state.scene), n, false)[0]);
+  }
   Eigen::VectorXd rho = Eigen::VectorXd::Ones(z.size());
   const auto W = anisotropic_laplacian(problem.grid, I, z0, options.albedo);
   bool solved = solve_albedo(S, I, W, options.albedo.smoothness, rho);  // Eq. (10)
@@ -62,14 +64,14 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
   for (int t = 1; solved && t <= options.max_iterations; ++t) {
     IterationReport report;
     report.index = t;
-    GradientProblem depth{problem.corners, shading_rows(problem.corners, s, rho, I - beta, z, k),
+    GradientProblem depth{problem.corners, shading_rows(problem.corners, lamp, rho, I - beta, z, k),
                           options.depth.sensor_weight, z0, smoothness};
     report.energy_before_depth = gradient_energy(depth, z);
     if (t == 1) best = report.energy_before_depth;
     Eigen::VectorXd next = z;
     solved = solve_gradient_rows(depth, solver, next) && next.minCoeff() > 0;
     if (!solved) break;
-    depth.rows = shading_rows(problem.corners, s, rho, I - beta, next, k);
+    depth.rows = shading_rows(problem.corners, lamp, rho, I - beta, next, k);
     report.energy = gradient_energy(depth, next);
     report.depth_change_mm =
         1e3 * model.unit_m * std::sqrt((next - z).squaredNorm() / static_cast<double>(z.size()));

@@ -20,6 +20,13 @@ void near_incidence(const Lamp& lamp, const SurfaceState& state, int begin, int 
   }
 }
 
+void add_second_order(const Eigen::Matrix3f& Q, const SurfaceState& state, int begin, int end, float* S) {
+  for (int p = begin; p < end; ++p) {
+    const auto n = state.normals.col(p);
+    S[p - begin] += n.dot(Q * n);
+  }
+}
+
 }  // namespace
 
 void shade(const Lamp& lamp, const SurfaceState& state, int begin, int end, ShadingBlock& block) {
@@ -31,6 +38,7 @@ void shade(const Lamp& lamp, const SurfaceState& state, int begin, int end, Shad
       float* S = block.S[static_cast<size_t>(c)].data();
       for (int k = 0; k < count; ++k)
         S[k] = std::max(least, l.dot(state.normals.col(begin + k))) + lamp.phi[c];
+      if (lamp.second_order) add_second_order(lamp.Q[static_cast<size_t>(c)], state, begin, end, S);
     }
     return;
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The shading of one image over a run of pixels: S_c = max(0, l_c . n) + phi_c (refine/lamp.h), planar, so that the
+// The shading of one image over a run of pixels: S_c = max(0, l_c . n) + phi_c and its kin (refine/lamp.h), planar, so that the
 // steps that read all images (albedo, weights, noise) share one tight loop.
 #pragma once
 

@@ -28,4 +28,10 @@ struct MethodResult {
 /// Called after each outer iteration with its number and the share done; throws Cancelled to stop.
 using IterationCallback = std::function<void(int iteration, double fraction_done)>;
 
+/// The state every method starts from: the sensor's shape, white, every usable sample trusted, no lamps yet.
+SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& options);
+
+/// Root mean square change of depth between two states of zeta = log z, mm.
+double rms_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after);
+
 }  // namespace rakelight

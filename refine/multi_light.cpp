@@ -18,17 +18,6 @@
 namespace rakelight {
 namespace {
 
-SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& options) {
-  SurfaceState state;
-  state.zeta = problem.prior.start;
-  state.points = surface_points(problem.grid, state.zeta);
-  state.scene = {state.points.rowwise().mean(), static_cast<float>(options.lamps.lobe_exponent)};
-  state.albedo = Eigen::Matrix3Xf::Ones(3, problem.grid.size());
-  state.attached_shadows = options.trust.attached_shadows;
-  state.weight = usable_weights(problem.images);
-  return state;
-}
-
 /// Outer iterations in which the start's flaws still dominate every residual: measured on them, noise would tie the depth
 /// to the sensor, and edge weights would take the sensor's steps for edges and tear the surface there.
 constexpr int kWarmUp = 8;
@@ -54,10 +43,6 @@ double sensor_weight(const DepthOptions& options, const MeasuredNoise& noise) {
   if (options.sensor_weight > 0) return options.sensor_weight;
   const double ratio = noise.image / noise.depth;
   return options.noise_ratio * ratio * ratio;
-}
-
-double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  return std::sqrt((after.array().exp() - before.array().exp()).square().mean());
 }
 
 void require_enough_images(const Observations& images) {
@@ -142,7 +127,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     report.energy_before_depth = step.energy_before;
     report.energy = step.energy_after;
     report.backtracks = step.backtracks;
-    report.depth_change_mm = 1e3 * rms_change_m(before, state.zeta);
+    report.depth_change_mm = rms_change_mm(before, state.zeta);
     report.sensor_weight = prior.cell_weight.maxCoeff();
     result.iterations.push_back(report);
     after_iteration(t, static_cast<double>(t) / options.max_iterations);

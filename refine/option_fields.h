@@ -47,6 +47,7 @@ void for_each_option(Options& options, Visitor&& visit) {
   visit("uncertainty_samples", options.uncertainty_samples);
   visit("preprocess.bilateral_sigma_px", options.preprocess.bilateral_sigma_px);
   visit("preprocess.bilateral_sigma_noise", options.preprocess.bilateral_sigma_noise);
+  visit("lamps.harmonics", options.lamps.harmonics);
   visit("lamps.model", options.lamps.model);
   visit("lamps.positions", options.lamps.positions);
   visit("lamps.lobe_exponent", options.lamps.lobe_exponent);

@@ -41,6 +41,9 @@ enum class LampPositions {
 
 /// The lamps, Eq. (26) and refine/lamp.h.
 struct LampOptions {
+  /// Order of the far lamps' spherical harmonics, 1 or 2. The second is for broad and ambient light: 9 unknowns a channel,
+  /// no attached shadows (it follows the clamped cosine by itself), no near lamps.
+  int harmonics = 1;
   LampModel model = LampModel::automatic;
   LampPositions positions = LampPositions::estimated;
   double lobe_exponent =

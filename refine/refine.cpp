@@ -56,6 +56,15 @@ cv::Mat1b inpainted_on_grid(const RefineProblem& problem) {
   return image;
 }
 
+Eigen::Matrix<double, 3, 5> second_order_rows(const Lamp& lamp) {
+  Eigen::Matrix<double, 3, 5> rows;
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const Eigen::Matrix3d Q = lamp.Q[static_cast<size_t>(c)].cast<double>();
+    rows.row(c) << Q(0, 0), Q(1, 1), Q(0, 1), Q(0, 2), Q(1, 2);
+  }
+  return rows;
+}
+
 std::vector<LightEstimate> light_estimates(const Observations& images, const SurfaceState& state) {
   const std::vector<LampUncertainty> uncertainty = near_lamp_uncertainty(images, state, {});
   std::vector<LightEstimate> estimates;
@@ -67,6 +76,7 @@ std::vector<LightEstimate> light_estimates(const Observations& images, const Sur
     estimate.frame_index = images.frame_index[i];
     for (int c = 0; c < 3; ++c)
       estimate.sh_rgb.row(c) << light.l.row(c).cast<double>(), static_cast<double>(light.phi[c]);
+    if (lamp.second_order) estimate.second_order_rgb = second_order_rows(lamp);
     if (lamp.near) {
       estimate.position_m = lamp_position(lamp, state.scene);
       estimate.distance_deviation_m = uncertainty[i].distance_deviation;
@@ -112,6 +122,13 @@ RefineResult make_result(const RefineProblem& problem, MethodResult method, cons
   result.options = options;
   result.options.scale = problem.scale;
   return result;
+}
+
+void check_harmonics(const LampOptions& lamps) {
+  if (lamps.harmonics != 1 && lamps.harmonics != 2)
+    throw UsageError("harmonics of order " + std::to_string(lamps.harmonics) + ": the order is 1 or 2");
+  if (lamps.harmonics == 2 && lamps.model == LampModel::near)
+    throw UsageError("second-order harmonics describe far lamps: leave out --lamps near or --harmonics 2");
 }
 
 /// Leaves the problem with the image that a single-image method uses. @return which one that is, or nothing.
@@ -162,6 +179,7 @@ void note_response(const Decoding& decoding, RefineResult& result) {
 
 RefineResult refine_depth(const LightStack& recorded, const RefineOptions& options, const ProgressCallback& progress) {
   const ThreadCount threads(options.threads);
+  check_harmonics(options.lamps);
   report(progress, "preparing", 0.0, 0);
   check_stack(recorded);
   const Decoding decoding = decide_response(recorded, options, progress);

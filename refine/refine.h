@@ -46,6 +46,8 @@ struct LightEstimate {
   std::string id;
   int frame_index = 0;
   Eigen::Matrix<double, 3, 4> sh_rgb = Eigen::Matrix<double, 3, 4>::Zero();  ///< row c (R, G, B): l_x, l_y, l_z, phi
+  /// With --harmonics 2, row c: Q_xx, Q_yy, Q_xy, Q_xz, Q_yz of the term n' Q n, whose trace is 0.
+  std::optional<Eigen::Matrix<double, 3, 5>> second_order_rgb;
   std::optional<Eigen::Vector3d> position_m;  ///< of a near lamp (refine/lamp.h)
   double distance_deviation_m = 0;            ///< of its distance from the object's centre
   double direction_deviation_rad = 0;         ///< of its direction

@@ -18,12 +18,17 @@ Eigen::VectorXd channel_of(const Observations& image, int c) {
   return Eigen::Map<const Eigen::VectorXf>(image.channel(0, c), image.pixels).cast<double>();
 }
 
+/// Shading of the image at a pixel, without attached shadows.
+Eigen::Vector3f shading_at(const SurfaceState& state, int p) {
+  const Eigen::Vector3f n = state.normals.col(p);
+  return shading(light_at(state.lamps.front(), state.points.col(p), n, state.scene), n, false);
+}
+
 /// The last term of Eq. (17).
 double photometric_energy(const Observations& image, const SurfaceState& state) {
   double sum = 0;
   for (int p = 0; p < image.pixels; ++p) {
-    const LocalLight light{state.lamps.front().l, state.lamps.front().phi};
-    const Eigen::Vector3f S = shading(light, state.normals.col(p), false);
+    const Eigen::Vector3f S = shading_at(state, p);
     for (int c = 0; c < 3; ++c)
       sum += static_cast<double>(std::pow(state.albedo(c, p) * S[c] - image.channel(0, c)[p], 2.0f));
   }
@@ -34,10 +39,8 @@ double photometric_energy(const Observations& image, const SurfaceState& state) 
 bool start_albedo(const RefineProblem& problem, const RefineOptions& options, SurfaceState& state) {
   for (int c = 0; c < 3; ++c) {
     const Eigen::VectorXd I = channel_of(problem.images, c);
-    const Eigen::VectorXd S = ((state.lamps[0].l.row(c) * state.normals).array() + state.lamps[0].phi[c])
-                                  .matrix()
-                                  .transpose()
-                                  .cast<double>();
+    Eigen::VectorXd S(problem.grid.size());
+    for (int p = 0; p < problem.grid.size(); ++p) S[p] = static_cast<double>(shading_at(state, p)[c]);
     const auto W = anisotropic_laplacian(problem.grid, I, state.zeta.array().exp(), options.albedo);
     Eigen::VectorXd rho;
     if (!solve_albedo(S, I, W, options.albedo.smoothness, rho)) return false;
@@ -61,7 +64,7 @@ bool diffuse(const RefineProblem& problem, const AlbedoOptions& options, Surface
 MethodResult ratio_as_printed(const RefineProblem& problem, const RefineOptions& options,
                               const IterationCallback& after_iteration) {
   MethodResult result;
-  result.state = initial_shading_state(problem, options);
+  result.state = initial_state(problem, options);
   SurfaceState state = result.state;
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.lamps = estimate_far_lamps(problem.images, state);  // Eq. (9)
@@ -86,8 +89,7 @@ MethodResult ratio_as_printed(const RefineProblem& problem, const RefineOptions&
     state.lamps = estimate_far_lamps(problem.images, state);  // Eq. (9)
     depth.rows = ratio_rows(problem.grid, problem.images, state);
     report.energy = gradient_energy(depth, state.zeta) + photometric_energy(problem.images, state);
-    report.depth_change_mm =
-        1e3 * std::sqrt((state.zeta.array().exp() - before.array().exp()).square().mean());
+    report.depth_change_mm = rms_change_mm(before, state.zeta);
     report.sensor_weight = options.depth.sensor_weight;
     result.iterations.push_back(report);
     after_iteration(t, static_cast<double>(t) / options.max_iterations);

@@ -115,27 +115,12 @@ void judge_directions(const SurfaceState& state, MethodResult& result) {
       "in different places; for an image under white light use --method fusion-like");
 }
 
-double rms_change_m(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  return std::sqrt((after.array().exp() - before.array().exp()).square().mean());
-}
-
 }  // namespace
-
-SurfaceState initial_shading_state(const RefineProblem& problem, const RefineOptions& options) {
-  SurfaceState state;
-  state.zeta = problem.prior.start;
-  state.points = surface_points(problem.grid, state.zeta);
-  state.scene = {state.points.rowwise().mean(), static_cast<float>(options.lamps.lobe_exponent)};
-  state.albedo = Eigen::Matrix3Xf::Ones(3, problem.grid.size());
-  state.attached_shadows = options.trust.attached_shadows;
-  state.weight = usable_weights(problem.images);
-  return state;
-}
 
 MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions& options, ImageLight light,
                                const IterationCallback& after_iteration) {
   MethodResult result;
-  SurfaceState& state = result.state = initial_shading_state(problem, options);
+  SurfaceState& state = result.state = initial_state(problem, options);
   const PixelGrid& grid = problem.grid;
   AlbedoSmoother smoother(grid, problem.images, options.albedo);
   const CurvaturePrior curvature(grid, problem.cut_right, problem.cut_down);
@@ -188,7 +173,7 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
     report.energy_before_depth = step.energy_before;
     report.energy = step.energy_after;
     report.backtracks = step.backtracks;
-    report.depth_change_mm = 1e3 * rms_change_m(before, state.zeta);
+    report.depth_change_mm = rms_change_mm(before, state.zeta);
     report.residual_scale = errors.sample;
     report.sensor_weight = prior.cell_weight.maxCoeff();
     result.iterations.push_back(report);

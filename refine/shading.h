@@ -22,9 +22,6 @@ enum class ImageLight {
   white,    ///< any: the channels share one light, and its colour is part of the albedo
 };
 
-/// The start of a single-image method: z0, albedo 1, no lamps yet.
-SurfaceState initial_shading_state(const RefineProblem& problem, const RefineOptions& options);
-
 /// @param problem with exactly one image
 MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions& options, ImageLight light,
                                const IterationCallback& after_iteration);

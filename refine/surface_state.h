@@ -19,6 +19,7 @@ struct SurfaceState {
   std::vector<Lamp> lamps;     ///< [image]
   LampScene scene;
   bool attached_shadows = true;  ///< shading is max(0, l.n) + phi instead of l.n + phi
+  int harmonics = 1;             ///< order of the far lamps' spherical harmonics, 1 or 2
   std::vector<float> weight;     ///< [image][pixel] trust in a sample, 0 to 1; 0 where it cannot be used
 };
 

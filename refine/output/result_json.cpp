@@ -44,6 +44,11 @@ Json json_of(const LightEstimate& light) {
     rows.push_back({row[0], row[1], row[2], row[3]});
   }
   Json json = {{"id", light.id}, {"frame", light.frame_index}, {"sh_rgb", rows}};
+  if (light.second_order_rgb) {
+    Json& second = json["second_order_rgb"] = Json::array();
+    for (const auto& row : light.second_order_rgb->rowwise())
+      second.push_back({row[0], row[1], row[2], row[3], row[4]});
+  }
   if (light.position_m) {
     json["position_m"] = {light.position_m->x(), light.position_m->y(), light.position_m->z()};
     json["distance_deviation_m"] = light.distance_deviation_m;

@@ -45,6 +45,7 @@ void normalize_albedo(SurfaceState& state) {
     state.albedo.row(c) /= mean;
     for (Lamp& lamp : state.lamps) {
       lamp.l.row(c) *= mean;
+      lamp.Q[static_cast<size_t>(c)] *= mean;
       lamp.phi[c] *= mean;
       lamp.strength[c] *= mean;
     }

@@ -29,9 +29,11 @@ Eigen::Matrix3Xd log_radiance(const Observations& image) {
 
 Eigen::Matrix3Xf shading_of(const SurfaceState& state) {
   Eigen::Matrix3Xf S(3, state.normals.cols());
-  for (Eigen::Index p = 0; p < S.cols(); ++p)
-    S.col(p) = shading(light_at(state.lamps.front(), state.points.col(p), state.scene), state.normals.col(p),
+  for (Eigen::Index p = 0; p < S.cols(); ++p) {
+    const Eigen::Vector3f n = state.normals.col(p);
+    S.col(p) = shading(light_at(state.lamps.front(), state.points.col(p), n, state.scene), n,
                        state.attached_shadows);
+  }
   return S;
 }
 

@@ -106,7 +106,7 @@ void gather_rows(const PixelGrid& grid, const std::vector<PixelRows>& all, int p
 /// Adds w (rho l_c, rest) of the lit channels to the tensor; light of a near lamp is one vector times a strength.
 void add_near_sample(const Eigen::Vector3f& v, const Eigen::Vector3f& strength, const Eigen::Vector3f& rest,
                      float weight, PhotometricTensor& sum) {
-  sum.G += weight * strength.squaredNorm() * v * v.transpose();
+  sum.G.noalias() += (weight * strength.squaredNorm()) * v * v.transpose();
   sum.h += weight * strength.dot(rest) * v;
 }
 
@@ -115,7 +115,7 @@ void add_far_sample(const Eigen::Matrix3f& l, const Eigen::Vector3f& lit, const 
   for (int c = 0; c < 3; ++c) {
     if (lit[c] == 0.0f) continue;
     const Eigen::Vector3f lc = lit[c] * l.row(c).transpose();
-    sum.G += weight * lc * lc.transpose();
+    sum.G.noalias() += (weight * lc) * lc.transpose();
     sum.h += weight * rest[c] * lc;
   }
 }
@@ -132,10 +132,12 @@ std::vector<PhotometricTensor> accumulate_tensors(const Observations& images, co
         if (weight[p] == 0.0f) continue;
         PhotometricTensor& sum = tensors[static_cast<size_t>(p)];
         const Eigen::Vector3f rho = images.usable_channels(i, p).cwiseProduct(state.albedo.col(p));
-        const Eigen::Vector3f rest =
-            images.usable_channels(i, p).cwiseProduct(images.radiance_at(i, p)) - rho.cwiseProduct(lamp.phi);
-        sum.e0 += weight[p] * rest.squaredNorm();
         const Eigen::Vector3f n = state.normals.col(p);
+        const LocalLight far = lamp.second_order ? light_at(lamp, state.points.col(p), n, state.scene)
+                                                 : LocalLight{lamp.l, lamp.phi};
+        const Eigen::Vector3f rest =
+            images.usable_channels(i, p).cwiseProduct(images.radiance_at(i, p)) - rho.cwiseProduct(far.phi);
+        sum.e0 += weight[p] * rest.squaredNorm();
         if (lamp.near) {
           const Eigen::Vector3f v =
               near_light_vector(lamp.direction, lamp.inverse_distance,
@@ -144,8 +146,8 @@ std::vector<PhotometricTensor> accumulate_tensors(const Observations& images, co
             add_near_sample(v, rho.cwiseProduct(lamp.strength), rest, weight[p], sum);
         } else {
           Eigen::Vector3f lit = rho;
-          if (state.attached_shadows) lit = ((lamp.l * n).array() > 0.0f).select(lit, 0.0f);
-          add_far_sample(lamp.l, lit, rest, weight[p], sum);
+          if (state.attached_shadows) lit = ((far.l * n).array() > 0.0f).select(lit, 0.0f);
+          add_far_sample(far.l, lit, rest, weight[p], sum);
         }
       }
     }

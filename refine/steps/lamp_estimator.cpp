@@ -61,9 +61,14 @@ std::string with_number(const char* format, double number) {
 
 }  // namespace
 
+LampEstimator::LampEstimator(const LampOptions& options) : options_(options) {
+  if (options.harmonics == 2) explanation_ = "far lamps with second-order harmonics: asked for";
+}
+
 void LampEstimator::update(const Observations& images, SurfaceState& state, int iteration) {
   const int first_near = options_.positions == LampPositions::estimated ? kFirstNear : 2;
-  if (options_.model != LampModel::far && iteration == first_near) start_near(images, state);
+  const bool may_be_near = options_.model != LampModel::far && options_.harmonics == 1;
+  if (may_be_near && iteration == first_near) start_near(images, state);
   if (!near_) {
     state.lamps = estimate_far_lamps(images, state);
     return;

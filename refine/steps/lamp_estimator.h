@@ -19,7 +19,7 @@ namespace rakelight {
 
 class LampEstimator {
  public:
-  explicit LampEstimator(const LampOptions& options) : options_(options) {}
+  explicit LampEstimator(const LampOptions& options);
 
   /// Estimates the state's lamps for outer iteration `iteration` (from 1). Call it in order.
   /// @throws InputError when positions are to be taken from the stack and a lamp has none

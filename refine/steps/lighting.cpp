@@ -9,46 +9,76 @@
 namespace rakelight {
 namespace {
 
-/// Normal equations of one image and channel.
+/// Normal equations of one image and channel; N = 4 or 9 unknowns.
+template <int N>
 struct LightEquations {
-  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d b = Eigen::Vector4d::Zero();
+  Eigen::Matrix<double, N, N> A = Eigen::Matrix<double, N, N>::Zero();
+  Eigen::Matrix<double, N, 1> b = Eigen::Matrix<double, N, 1>::Zero();
 };
 
+/// What S is linear in: n, 1 and, in the second order, the five harmonics that second_order_matrix puts into Q.
+template <int N>
+Eigen::Matrix<float, N, 1> harmonics(const Eigen::Vector3f& n) {
+  Eigen::Matrix<float, N, 1> h;
+  h.template head<4>() << n.x(), n.y(), n.z(), 1.0f;
+  if constexpr (N == 9) {
+    const float x = n.x(), y = n.y(), z = n.z();
+    h.template tail<5>() << 2 * x * y, 2 * x * z, 2 * y * z, x * x - y * y, 3 * z * z - 1;
+  }
+  return h;
+}
+
+/// Q of n' Q n = s . (the last five harmonics).
+Eigen::Matrix3f second_order_matrix(const Eigen::Matrix<float, 5, 1>& s) {
+  Eigen::Matrix3f Q;
+  Q << s[3] - s[4], s[0], s[1],
+       s[0], -s[3] - s[4], s[2],
+       s[1], s[2], 2 * s[4];
+  return Q;
+}
+
 /// Sums run in float over short runs of pixels, in double over the runs, in a fixed order.
-LightEquations light_equations(const Observations& images, int image, int channel, const SurfaceState& state,
-                               const Lamp& lamp, bool clamp) {
+template <int N>
+LightEquations<N> light_equations(const Observations& images, int image, int channel, const SurfaceState& state,
+                                  const Lamp& lamp, bool clamp) {
   const float* radiance = images.channel(image, channel);
   const unsigned char* usable = images.usable_in(image, channel);
   const float* weight = state.weight.data() + static_cast<size_t>(image) * static_cast<size_t>(images.pixels);
   constexpr Eigen::Index kRun = 256;
-  LightEquations sum;
+  LightEquations<N> sum;
   const Eigen::Vector3f l = lamp.l.row(channel).transpose();
   for (Eigen::Index begin = 0; begin < state.normals.cols(); begin += kRun) {
     const Eigen::Index end = std::min(begin + kRun, state.normals.cols());
-    Eigen::Matrix3f nn = Eigen::Matrix3f::Zero();
-    Eigen::Vector3f n1 = Eigen::Vector3f::Zero(), nI = Eigen::Vector3f::Zero();
-    float ones = 0, I1 = 0;
+    Eigen::Matrix<float, N, N> A = Eigen::Matrix<float, N, N>::Zero();
+    Eigen::Matrix<float, N, 1> b = Eigen::Matrix<float, N, 1>::Zero();
     for (Eigen::Index p = begin; p < end; ++p) {
-      const auto n = state.normals.col(p);
+      const Eigen::Vector3f n = state.normals.col(p);
+      Eigen::Matrix<float, N, 1> h = harmonics<N>(n);
+      if (clamp && l.dot(n) <= 0.0f) h.template head<3>().setZero();
       const float rho = state.albedo(channel, p);
       const float trust = weight[p] * static_cast<float>(usable[p]);
-      const float w = trust * rho * rho, wI = trust * rho * radiance[p];
-      ones += w;
-      I1 += wI;
-      const float lit = clamp && l.dot(n) <= 0.0f ? 0.0f : 1.0f;
-      nn += (lit * w) * n * n.transpose();
-      n1 += (lit * w) * n;
-      nI += (lit * wI) * n;
+      A.noalias() += (trust * rho * rho) * h * h.transpose();
+      b += (trust * rho * radiance[p]) * h;
     }
-    sum.A.topLeftCorner<3, 3>() += nn.cast<double>();
-    sum.A.topRightCorner<3, 1>() += n1.cast<double>();
-    sum.A(3, 3) += static_cast<double>(ones);
-    sum.b.head<3>() += nI.cast<double>();
-    sum.b[3] += static_cast<double>(I1);
+    sum.A += A.template cast<double>();
+    sum.b += b.template cast<double>();
   }
-  sum.A.bottomLeftCorner<1, 3>() = sum.A.topRightCorner<3, 1>().transpose();
   return sum;
+}
+
+template <int N>
+void estimate_channel(const Observations& images, int image, int channel, const SurfaceState& state, bool clamp,
+                      Lamp& lamp) {
+  using Square = Eigen::Matrix<double, N, N>;
+  const LightEquations<N> sum = light_equations<N>(images, image, channel, state, lamp, clamp);
+  const double ridge = 1e-9 * sum.A.trace() + 1e-12;
+  const Eigen::LDLT<Square> factor(sum.A + ridge * Square::Identity());
+  const Eigen::Matrix<double, N, 1> solution = factor.solve(sum.b);
+  if (factor.info() != Eigen::Success || !solution.allFinite()) return;
+  const Eigen::Matrix<float, N, 1> s = solution.template cast<float>();
+  lamp.l.row(channel) = s.template head<3>().transpose();
+  lamp.phi[channel] = s[3];
+  if constexpr (N == 9) lamp.Q[static_cast<size_t>(channel)] = second_order_matrix(s.template tail<5>());
 }
 
 }  // namespace
@@ -56,20 +86,17 @@ LightEquations light_equations(const Observations& images, int image, int channe
 std::vector<Lamp> estimate_far_lamps(const Observations& images, const SurfaceState& state) {
   std::vector<Lamp> lamps(static_cast<size_t>(images.images));
   const bool first = state.lamps.empty();
+  const bool clamp = state.attached_shadows && !first;
   cv::parallel_for_(cv::Range(0, images.images), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
-      const Lamp old = first ? Lamp{} : state.lamps[static_cast<size_t>(i)];
-      Lamp& lamp = lamps[static_cast<size_t>(i)] = old;
+      Lamp& lamp = lamps[static_cast<size_t>(i)] = first ? Lamp{} : state.lamps[static_cast<size_t>(i)];
       lamp.near = false;
+      lamp.second_order = state.harmonics == 2;
       for (int c = 0; c < 3; ++c) {
-        const bool clamp = state.attached_shadows && !first;
-        const LightEquations sum = light_equations(images, i, c, state, old, clamp);
-        const double ridge = 1e-9 * sum.A.trace() + 1e-12;
-        const auto factor = (sum.A + ridge * Eigen::Matrix4d::Identity()).eval().ldlt();
-        const Eigen::Vector4d s = factor.solve(sum.b);
-        if (factor.info() != Eigen::Success || !s.allFinite()) continue;
-        lamp.l.row(c) = s.head<3>().cast<float>().transpose();
-        lamp.phi[c] = static_cast<float>(s[3]);
+        if (lamp.second_order)
+          estimate_channel<9>(images, i, c, state, false, lamp);
+        else
+          estimate_channel<4>(images, i, c, state, clamp, lamp);
       }
     }
   });

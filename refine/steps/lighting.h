@@ -4,6 +4,8 @@
 // Eq. (26): the light of each image and channel, given shape and albedo, by weighted least squares
 //
 //     min_s sum_p w (rho_c [n, 1] s_ic - I_ic)^2          4 unknowns: l (3) and phi
+//
+// and, with second-order harmonics, [n, 1, the five quadratic ones] and 9 unknowns.
 #pragma once
 
 #include "refine/observations.h"
@@ -12,6 +14,7 @@
 namespace rakelight {
 
 /// Far lamps of all images. With attached shadows a sample that the state's lamp leaves dark speaks for phi only.
+/// The order of the harmonics is the state's; the second follows the shadow's soft edge itself and knows no clamp.
 /// @return one lamp an image; the old lamp is kept where an image has too few usable samples.
 std::vector<Lamp> estimate_far_lamps(const Observations& images, const SurfaceState& state);
 

@@ -19,10 +19,11 @@ std::vector<GradientRow> ratio_rows(const PixelGrid& grid, const Observations& i
   for (int p = 0; p < image.pixels; ++p) {
     const auto frame = normal_frame(grid, p);
     const Eigen::Vector3f rho = state.albedo.col(p);
+    const LocalLight light = light_at(lamp, state.points.col(p), state.normals.col(p), state.scene);
     for (const auto& [c, k] : kPairs) {
       const Eigen::Vector3f v =
-          rho[k] * (image.channel(0, c)[p] - rho[c] * lamp.phi[c]) * lamp.l.row(k).transpose() -
-          rho[c] * (image.channel(0, k)[p] - rho[k] * lamp.phi[k]) * lamp.l.row(c).transpose();
+          rho[k] * (image.channel(0, c)[p] - rho[c] * light.phi[c]) * light.l.row(k).transpose() -
+          rho[c] * (image.channel(0, k)[p] - rho[k] * light.phi[k]) * light.l.row(c).transpose();
       rows.push_back({p, (frame.jacobian().transpose() * v).cast<double>(), static_cast<double>(v[2])});
     }
   }
@@ -38,13 +39,17 @@ Eigen::Matrix3Xf orthographic_normals(const CornerList& corners, const Eigen::Ve
   return normals;
 }
 
-std::vector<GradientRow> shading_rows(const CornerList& corners, const Eigen::Vector4d& s,
+std::vector<GradientRow> shading_rows(const CornerList& corners, const Lamp& lamp,
                                       const Eigen::VectorXd& rho, const Eigen::VectorXd& I,
                                       const Eigen::VectorXd& z, double k) {
+  const Eigen::Matrix3Xf normals = orthographic_normals(corners, z, k);
   std::vector<GradientRow> rows;
   for (int p = 0; p < static_cast<int>(z.size()); ++p) {
     const double d = std::sqrt(1 + (k * forward_gradient(corners, p, z)).squaredNorm());
-    rows.push_back({p, rho[p] * k / d * s.head<2>(), I[p] - rho[p] * s[3] + rho[p] * s[2] / d});
+    const LocalLight light = light_at(lamp, Eigen::Vector3f::Zero(), normals.col(p), LampScene{});
+    const Eigen::Vector3d l = light.l.row(0).transpose().cast<double>();
+    const double phi = static_cast<double>(light.phi[0]);
+    rows.push_back({p, rho[p] * k / d * l.head<2>(), I[p] - rho[p] * phi + rho[p] * l[2] / d});
   }
   return rows;
 }

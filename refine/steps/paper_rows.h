@@ -18,9 +18,9 @@ namespace rakelight {
 std::vector<GradientRow> ratio_rows(const PixelGrid& grid, const Observations& image,
                                     const SurfaceState& state);
 
-/// Eq. (14), one row a pixel: rho (s . (n, 1)) = I with orthographic normals of slopes k grad z and their length as it is
-/// at z. @param s light and ambient share  @param k metric slope of one unit of z between neighbours
-std::vector<GradientRow> shading_rows(const CornerList& corners, const Eigen::Vector4d& s,
+/// Eq. (14), one row a pixel: rho (l . n + phi) = I with orthographic normals of slopes k grad z and their length as it is
+/// at z. @param lamp far; its first channel counts  @param k metric slope of one unit of z between neighbours
+std::vector<GradientRow> shading_rows(const CornerList& corners, const Lamp& lamp,
                                       const Eigen::VectorXd& rho, const Eigen::VectorXd& I,
                                       const Eigen::VectorXd& z, double k);
 

@@ -53,7 +53,7 @@ Eigen::VectorXd lit_images(const Observations& images, const SurfaceState& state
     const float* weight = state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
     for (int p = 0; p < images.pixels; ++p) {
       const LocalLight light = light_at(lamp, state.points.col(p), state.scene);
-      if ((light.l * state.normals.col(p)).maxCoeff() > 0.0f) lit[p] += static_cast<double>(weight[p]);
+      if (lamp.second_order || (light.l * state.normals.col(p)).maxCoeff() > 0.0f) lit[p] += static_cast<double>(weight[p]);
     }
   }
   return lit;

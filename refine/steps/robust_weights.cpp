@@ -10,8 +10,9 @@ namespace rakelight {
 namespace {
 
 Eigen::Vector3f residual(const Observations& images, const SurfaceState& state, int i, int p) {
-  const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), state.scene);
-  const Eigen::Vector3f S = shading(light, state.normals.col(p), state.attached_shadows);
+  const Eigen::Vector3f n = state.normals.col(p);
+  const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), n, state.scene);
+  const Eigen::Vector3f S = shading(light, n, state.attached_shadows);
   return state.albedo.col(p).cwiseProduct(S) -
          Eigen::Vector3f(images.channel(i, 0)[p], images.channel(i, 1)[p], images.channel(i, 2)[p]);
 }

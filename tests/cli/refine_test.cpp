@@ -92,6 +92,18 @@ TEST_F(Refine, TakesParametersFromTheFileAndTheCommandLineOverThem) {
   EXPECT_EQ(options.at("preprocess").at("bilateral_sigma_px"), 2.5);
 }
 
+TEST_F(Refine, TakesTheSolverAndTheLightModelFromTheCommandLine) {
+  const Ran ran = refine({"--solver", "exact", "--lamps", "far", "--lamp-positions", "start", "--harmonics", "2",
+                          "--iterations", "3", "--scale", "1"});
+  ASSERT_TRUE(fs::exists(out() / "result.json")) << ran.err;
+  const auto options = manifest().at("options");
+  EXPECT_EQ(options.at("depth").at("solver"), "exact");
+  EXPECT_EQ(options.at("lamps").at("model"), "far");
+  EXPECT_EQ(options.at("lamps").at("positions"), "start");
+  EXPECT_EQ(options.at("lamps").at("harmonics"), 2);
+  EXPECT_EQ(manifest().at("lights").at(0).at("second_order_rgb").size(), 3u);
+}
+
 TEST_F(Refine, NamesKeyAndLineOfWhatIsWrongInTheFile) {
   const auto refused = [&](const std::string& text, const std::string& message) {
     set_text(folder_ / "bad.toml", text);
@@ -115,6 +127,8 @@ TEST_F(Refine, RefusesOptionsOutOfRange) {
   expect_refused(refine({"--preset", "wild"}), 2, "--preset");
   expect_refused(refine({"--response", "wild"}), 2, "wild");
   expect_refused(refine({"--iterations", "0"}), 2, "--iterations");
+  expect_refused(refine({"--harmonics", "3"}), 2, "--harmonics");
+  expect_refused(refine({"--harmonics", "2", "--lamps", "near"}), 2, "--harmonics");
 }
 
 TEST_F(Refine, RefusesAStackThatIsNotThere) {

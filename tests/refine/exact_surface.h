@@ -69,6 +69,21 @@ inline std::vector<Lamp> far_lamps() {
   return {far_lamp(0.5f, 0.0f), far_lamp(0.0f, 0.5f), far_lamp(-0.5f, 0.1f), far_lamp(0.1f, -0.6f), far_lamp(0, 0)};
 }
 
+/// The same with second-order harmonics.
+inline std::vector<Lamp> second_order_lamps() {
+  std::vector<Lamp> lamps = far_lamps();
+  for (size_t i = 0; i < lamps.size(); ++i) {
+    lamps[i].second_order = true;
+    for (size_t c = 0; c < 3; ++c) {
+      const float a = 0.05f * static_cast<float>(i + 1), b = 0.04f * static_cast<float>(c + 1), d = 0.1f - a;
+      lamps[i].Q[c] << a, d, b,
+                       d, b, a,
+                       b, a, -a - b;
+    }
+  }
+  return lamps;
+}
+
 /// The truth as a state: every sample fully trusted.
 inline SurfaceState exact_state(const ExactSurface& surface, const Eigen::Matrix3Xf& albedo,
                                 const std::vector<Lamp>& lamps, bool attached_shadows) {
@@ -99,8 +114,9 @@ inline Observations images_of(const SurfaceState& state) {
   images.usable.assign(images.radiance.size(), 1);
   for (int i = 0; i < images.images; ++i) {
     for (int p = 0; p < images.pixels; ++p) {
-      const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), state.scene);
-      const Eigen::Vector3f S = shading(light, state.normals.col(p), state.attached_shadows);
+      const Eigen::Vector3f n = state.normals.col(p);
+      const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), n, state.scene);
+      const Eigen::Vector3f S = shading(light, n, state.attached_shadows);
       for (int c = 0; c < 3; ++c) images.radiance[sample_index(images, i, c, p)] = state.albedo(c, p) * S[c];
     }
     images.light_ids.push_back("lamp-" + std::to_string(i));

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "refine/evaluate.h"
 #include "refine/refine.h"
 #include "simulate/simulate.h"
@@ -59,6 +61,63 @@ TEST(RefineSimulated, AVaseWithShadowsHighlightsAndNoiseComesOutSharp) {
 
 TEST(RefineSimulated, ACoinComesOutSharpAtTwiceTheDepthsResolution) {
   expect_at_most(refine_simulated(rig(Realism::real, SceneKind::coin, 2), Preset::robust), 1.0, 0.72);
+}
+
+/// Where broad lamp `k` of `count` stands.
+cv::Vec3f toward_broad_lamp(size_t k, size_t count) {
+  const double angle = 2 * CV_PI * static_cast<double>(k) / static_cast<double>(count);
+  return cv::Vec3f(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), -1) / std::sqrt(2.0f);
+}
+
+/// A sphere under broad lamps of shading 0.2 + 0.4 t.n + 0.4 (t.n)^2: no shadow has an edge, and the shading bends with n.
+Simulated broadly_lit_sphere() {
+  SimulateOptions options = rig(Realism::ideal, SceneKind::sphere, 1);
+  options.width = 320;
+  options.height = 240;
+  Simulated scan = simulate_stack(options);
+  for (size_t k = 0; k < scan.stack.frames.size(); ++k) {
+    cv::Mat_<cv::Vec3w> image(scan.truth.normals.size(), cv::Vec3w());
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        const cv::Vec3f n = scan.truth.normals(y, x);
+        if (std::isnan(n[0])) continue;
+        const float facing = n.dot(toward_broad_lamp(k, scan.stack.frames.size()));
+        image(y, x) = 40000 * (0.2f + 0.4f * facing + 0.4f * facing * facing) * scan.truth.albedo(y, x);
+      }
+    }
+    scan.stack.frames[k].color = image;
+  }
+  return scan;
+}
+
+/// Correlation of the red channel's estimated Q with the truth t t' - 1 / 3, over all lamps, and their mean ratio.
+cv::Vec2d agreement_with_broad_lamps(const RefineResult& result) {
+  double both = 0, found2 = 0, truth2 = 0;
+  for (size_t k = 0; k < result.lights.size(); ++k) {
+    const cv::Vec3d t = toward_broad_lamp(k, result.lights.size());
+    const Eigen::Matrix<double, 1, 5> found = result.lights[k].second_order_rgb->row(0);
+    const double truth[] = {t[0] * t[0] - 1.0 / 3, t[1] * t[1] - 1.0 / 3, t[0] * t[1], t[0] * t[2], t[1] * t[2]};
+    for (int j = 0; j < 5; ++j) {
+      both += found[j] * truth[j];
+      found2 += found[j] * found[j];
+      truth2 += truth[j] * truth[j];
+    }
+  }
+  return {both / std::sqrt(found2 * truth2), both / truth2};
+}
+
+TEST(RefineSimulated, BroadLightIsUnderstoodByItsSecondHarmonics) {
+  const Simulated scan = broadly_lit_sphere();
+  RefineOptions options = preset_options(Preset::robust);
+  options.lamps.harmonics = 2;
+  const RefineResult result = refine_depth(scan.stack, options);
+  EXPECT_THAT(result.message, testing::HasSubstr("second-order harmonics"));
+  const auto agreement = agreement_with_broad_lamps(result);
+  EXPECT_GT(agreement[0], 0.95);
+  double l = 0;
+  for (const LightEstimate& light : result.lights) l += light.sh_rgb.row(0).head<3>().norm();
+  EXPECT_NEAR(agreement[1] / (l / static_cast<double>(result.lights.size())), 1, 0.25);  // 0.4 to 0.4
+  EXPECT_LT(evaluate(result.camera, result.depth, result.normals, scan.truth).mae_deg, 1);
 }
 
 TEST(RefineSimulated, NearLampsAreToldFromFarOnes) {

@@ -115,6 +115,15 @@ TEST(RefineDepth, GivesEachImagesLight) {
   }
 }
 
+TEST(RefineDepth, RefusesHarmonicsThatItDoesNotKnow) {
+  RefineOptions options = at_scale(1);
+  options.lamps.harmonics = 3;
+  EXPECT_THROW(refine_depth(bump_stack(), options), UsageError);
+  options.lamps.harmonics = 2;
+  options.lamps.model = LampModel::near;
+  EXPECT_THAT(message_of<UsageError>([&] { refine_depth(bump_stack(), options); }), HasSubstr("far lamps"));
+}
+
 TEST(RefineDepth, SaysHowItEndedAndWhatItMeasured) {
   const RefineResult& result = refined_x2();
   EXPECT_NE(result.termination, Termination::diverged);

@@ -57,6 +57,16 @@ TEST_P(EverySingleImageMethod, BringsTheSurfaceNearerToTheTruth) {
   expect_finite(result);
 }
 
+TEST_P(EverySingleImageMethod, TakesSecondOrderHarmonics) {
+  for (const Preset preset : {Preset::robust, Preset::paper}) {
+    RefineOptions options = options_of(GetParam(), preset);
+    options.lamps.harmonics = 2;
+    const RefineResult result = refine_depth(color_lit_bump(), options);
+    expect_finite(result);
+    EXPECT_TRUE(result.lights.front().second_order_rgb);
+  }
+}
+
 TEST_P(EverySingleImageMethod, NeverRaisesTheEnergyInADepthStep) {
   const RefineResult result = refine_depth(color_lit_bump(), options_of(GetParam()));
   ASSERT_FALSE(result.iterations.empty());

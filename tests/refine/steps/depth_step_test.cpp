@@ -130,6 +130,36 @@ Eigen::VectorXd RandomProblem::dense_step(const Eigen::VectorXd& zeta) const {
   return A.colPivHouseholderQr().solve(Eigen::Map<Eigen::VectorXd>(rest.data(), A.rows()));
 }
 
+TEST(Tensors, OfSecondOrderLampsHaveTheSlopeOfTheTrueEnergy) {
+  const test::ExactSurface sphere = test::exact_sphere(24);
+  SurfaceState state = test::exact_state(sphere, test::varied_albedo(sphere), test::second_order_lamps(), false);
+  Observations images = test::images_of(state);
+  for (float& radiance : images.radiance) radiance *= 0.9f;
+  const auto tensors = accumulate_tensors(images, state);
+  const auto energy = [&](int p, const Eigen::Vector3d& n) {
+    double sum = 0;
+    for (int i = 0; i < images.images; ++i) {
+      const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
+      for (int c = 0; c < 3; ++c) {
+        const Eigen::Matrix3d Q = lamp.Q[static_cast<size_t>(c)].cast<double>();
+        const double S = lamp.l.row(c).cast<double>().dot(n) + n.dot(Q * n) + static_cast<double>(lamp.phi[c]);
+        sum += std::pow(static_cast<double>(state.albedo(c, p)) * S - static_cast<double>(images.channel(i, c)[p]), 2);
+      }
+    }
+    return sum;
+  };
+  for (int p = 0; p < sphere.grid.size(); p += 7) {
+    const Eigen::Vector3d n = state.normals.col(p).cast<double>();
+    const PhotometricTensor& tensor = tensors[static_cast<size_t>(p)];
+    EXPECT_NEAR(static_cast<double>(tensor.energy(n.cast<float>())), energy(p, n), 1e-4 + 1e-3 * energy(p, n));
+    const Eigen::Vector3d slope = 2 * (tensor.G * n.cast<float>() - tensor.h).cast<double>();
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d h = 1e-5 * Eigen::Vector3d::Unit(k);
+      EXPECT_NEAR(slope[k], (energy(p, n + h) - energy(p, n - h)) / 2e-5, 1e-3) << p;
+    }
+  }
+}
+
 TEST(DepthSystem, ItsRightSideIsMinusHalfTheEnergysGradient) {
   RandomProblem random(1);
   const DepthProblem problem = random.problem();

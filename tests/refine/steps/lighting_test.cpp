@@ -50,6 +50,22 @@ TEST(FarLamps, AreRecoveredThroughAttachedShadows) {
   EXPECT_LT(lit.worst_error(), 1e-3);
 }
 
+TEST(FarLamps, OfTheSecondOrderAreRecoveredFromASphereWithoutNoise) {
+  LitSphere lit(false);
+  lit.truth = lit.state.lamps = test::second_order_lamps();
+  lit.images = test::images_of(lit.state);
+  lit.state.lamps.clear();
+  lit.state.harmonics = 2;
+  lit.state.lamps = estimate_far_lamps(lit.images, lit.state);
+  EXPECT_LT(lit.worst_error(), 3e-3);
+  for (size_t i = 0; i < lit.truth.size(); ++i)
+    for (size_t c = 0; c < 3; ++c)
+      EXPECT_LT((lit.state.lamps[i].Q[c] - lit.truth[i].Q[c]).cwiseAbs().maxCoeff(), 3e-3f) << i << c;
+  lit.state.harmonics = 1;
+  lit.state.lamps = estimate_far_lamps(lit.images, lit.state);
+  EXPECT_GT(lit.worst_error(), 0.03);  // the first order cannot say it
+}
+
 TEST(FarLamps, SolveTheWeightedNormalEquations) {
   LitSphere lit(false);
   std::mt19937 random(1);

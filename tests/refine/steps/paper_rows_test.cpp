@@ -107,11 +107,20 @@ TEST(ShadingRows, VanishAtTheTruth) {
     z[p] = kZ + kSlopeX / k * at.x + kSlopeY / k * at.y + 1e-4 * std::sin(at.x + 2.0 * at.y);
     rho[p] = 0.5 + 0.1 * (p % 4);
   }
-  const Eigen::Vector4d s(0.3, -0.2, -0.8, 0.1);
+  Lamp lamp;
+  lamp.l.row(0) << 0.3f, -0.2f, -0.8f;
+  lamp.phi[0] = 0.1f;
+  lamp.second_order = true;
+  lamp.Q[0] << 0.05f, 0.02f, -0.03f,
+               0.02f, -0.01f, 0.04f,
+               -0.03f, 0.04f, -0.04f;
   const Eigen::Matrix3Xf normals = orthographic_normals(corners, z, k);
-  const Eigen::VectorXd shading = (normals.cast<double>().transpose() * s.head<3>()).array() + s[3];
-  const Eigen::VectorXd I = rho.cwiseProduct(shading);
-  for (const GradientRow& row : shading_rows(corners, s, rho, I, z, k)) {
+  Eigen::VectorXd I(grid.size());
+  for (int p = 0; p < grid.size(); ++p) {
+    const Eigen::Vector3f n = normals.col(p);
+    I[p] = rho[p] * static_cast<double>(lamp.l.row(0).dot(n) + n.dot(lamp.Q[0] * n) + lamp.phi[0]);
+  }
+  for (const GradientRow& row : shading_rows(corners, lamp, rho, I, z, k)) {
     EXPECT_NEAR(row.a.dot(forward_gradient(corners, row.pixel, z)), row.b, 1e-6);
   }
 }

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/method.h"
+
+#include <cmath>
+
+#include "refine/steps/robust_weights.h"
+
+namespace rakelight {
+
+SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& options) {
+  SurfaceState state;
+  state.zeta = problem.prior.start;
+  state.points = surface_points(problem.grid, state.zeta);
+  state.scene = {state.points.rowwise().mean(), static_cast<float>(options.lamps.lobe_exponent)};
+  state.albedo = Eigen::Matrix3Xf::Ones(3, problem.grid.size());
+  state.harmonics = options.lamps.harmonics;
+  state.attached_shadows = options.trust.attached_shadows && options.lamps.harmonics == 1;
+  state.weight = usable_weights(problem.images);
+  return state;
+}
+
+double rms_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  return 1e3 * std::sqrt((after.array().exp() - before.array().exp()).square().mean());
+}
+
+}  // namespace rakelight
