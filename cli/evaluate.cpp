@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/commands.h"
 #include "refine/output/result_io.h"
@@ -27,7 +28,8 @@ constexpr const char* kFooter = R"(Examples:
   rakelight evaluate my-surface --truth my-scan --json    for scripts
 
 RMSE: of depth. Unbiased: after removing the mean error. MAE and median: angles between the true normals and those
-of depth by forward differences; own: of normals.tiff. Grids of different size are compared on the finer one.)";
+of depth by forward differences; own: of normals.tiff. Error bars: share of errors inside one standard deviation of
+uncertainty.tiff, 68 % for perfect ones. Grids of different size are compared on the finer one.)";
 
 nlohmann::ordered_json json_of(const Evaluation& evaluation) {
   return {{"rmse_mm", evaluation.rmse_mm},       {"mae_deg", evaluation.mae_deg},
@@ -53,15 +55,24 @@ void run(const Arguments& arguments) {
   const GroundTruth truth = read_truth(arguments.truth);
   const Evaluation before = evaluate(result.camera, result.initial_depth, {}, truth);
   const Evaluation after = evaluate(result.camera, result.depth, result.normals, truth);
+  std::optional<ErrorBarReport> bars;
+  if (!result.uncertainty.empty())
+    bars = evaluate_error_bars(result.camera, result.depth, result.normals, result.uncertainty, truth);
   if (arguments.json) {
     auto json = json_of(after);
     json["before"] = json_of(before);
+    if (bars) json["within_error_bars"] = {{"depth", bars->depth_within}, {"normals", bars->normal_within}};
     std::cout << json.dump(2) << "\n";
     return;
   }
   std::cout << "          RMSE mm  unbiased mm   MAE deg  median deg  complete %   own deg\n";
   print_row("before", before);
   print_row("after", after);
+  if (!bars) return;
+  char line[160];
+  std::snprintf(line, sizeof line, "error bars hold %.0f %% of the depth errors and %.0f %% of the normals'\n",
+                100 * bars->depth_within, 100 * bars->normal_within);
+  std::cout << line;
 }
 
 }  // namespace

@@ -158,4 +158,29 @@ Evaluation evaluate(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3
   return result;
 }
 
+ErrorBarReport evaluate_error_bars(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals,
+                                   const cv::Mat3f& uncertainty, const GroundTruth& truth) {
+  if (uncertainty.size() != depth.size()) refuse_sizes("uncertainty", uncertainty.size(), depth.size());
+  Compared c = on_finer_grid(camera, depth, normals, truth);
+  keep_comparable(c);
+  const cv::Mat3f bars = finer_normals(uncertainty, c.depth.cols / depth.cols);
+  std::vector<double> errors, deviations;
+  int angles = 0, angles_within = 0;
+  for (int y = 0; y < c.depth.rows; ++y) {
+    for (int x = 0; x < c.depth.cols; ++x) {
+      const cv::Vec3d bar = bars(y, x);
+      if (!std::isfinite(c.depth(y, x)) || !std::isfinite(bar[0])) continue;
+      errors.push_back(static_cast<double>(c.depth(y, x) - c.true_depth(y, x)));
+      deviations.push_back(bar[0]);
+      if (!finite(c.normals(y, x))) continue;
+      ++angles;
+      if (angle_deg(c.normals(y, x), c.true_normals(y, x)) * CV_PI / 180 < bar[1]) ++angles_within;
+    }
+  }
+  const double offset = mean(errors);
+  int within = 0;
+  for (size_t i = 0; i < errors.size(); ++i) within += std::abs(errors[i] - offset) < deviations[i];
+  return {within / static_cast<double>(errors.size()), angles_within / static_cast<double>(angles)};
+}
+
 }  // namespace rakelight

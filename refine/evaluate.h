@@ -23,4 +23,14 @@ struct Evaluation {
 Evaluation evaluate(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals,
                     const GroundTruth& truth);
 
+/// How honest a result's error bars are: the share of errors inside one standard deviation, 0.68 for perfect ones.
+struct ErrorBarReport {
+  double depth_within = 0;   ///< depth errors, the mean error removed
+  double normal_within = 0;  ///< angles between the result's normals and the true ones
+};
+
+/// @param uncertainty deviation of depth (m) and of the normal (rad), as in RefineResult; the rest as in evaluate.
+ErrorBarReport evaluate_error_bars(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals,
+                                   const cv::Mat3f& uncertainty, const GroundTruth& truth);
+
 }  // namespace rakelight

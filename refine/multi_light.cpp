@@ -99,6 +99,8 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   LampEstimator lamps(options.lamps);
   DepthPrior prior = problem.prior;
   MeasuredNoise noise;
+  std::vector<PhotometricTensor> tensors;
+  std::vector<std::array<float, 4>> weights;
 
   for (int t = 1; t <= options.max_iterations; ++t) {
     IterationReport report;
@@ -117,9 +119,9 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
 
     noise = measured_errors(problem, state, t, t <= kWarmUp ? model_error : report.residual_scale);
     prior.cell_weight = sensor_weight(options.depth, noise) * problem.prior.cell_weight;
-    const auto tensors = accumulate_tensors(images, state);
+    tensors = accumulate_tensors(images, state);
     const double edge_weight = t > kWarmUp ? options.trust.edge_weight : 0;
-    const auto weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
+    weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
     const DepthProblem depth{problem.grid, problem.corners, tensors, weights, prior};
     const Eigen::VectorXd before = state.zeta;
     const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (32), (34)
@@ -150,8 +152,9 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   result.message += "; " + lamps.explanation();
-  result.uncertainty = sample_uncertainty(
-      problem.grid, problem.corners, state.zeta, *solver, std::sqrt(options.depth.noise_ratio) * noise.image,
+  result.uncertainty = estimate_uncertainty(
+      {problem.grid, problem.corners, tensors, weights, prior}, images, state, options.depth, *solver,
+      std::sqrt(options.depth.noise_ratio) * noise.image,
       result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
   result.quality["far_over_near_residual"] = lamps.far_over_near();
   result.quality["image_noise"] = noise.image;

@@ -75,6 +75,8 @@ StoredResult read_result(const fs::path& folder) {
   result.depth = read_float_tiff(folder / "depth.tiff", result.camera.size());
   result.initial_depth = read_float_tiff(folder / "initial_depth.tiff", result.camera.size());
   result.normals = read_float3_tiff(folder / "normals.tiff", result.camera.size());
+  if (std::filesystem::exists(folder / "uncertainty.tiff"))
+    result.uncertainty = read_float3_tiff(folder / "uncertainty.tiff", result.camera.size());
   return result;
 }
 

@@ -24,6 +24,7 @@ struct StoredResult {
   cv::Mat1f depth;          ///< metres, NaN where there is no surface
   cv::Mat1f initial_depth;  ///< the sensor's, before refinement, metres, NaN outside
   cv::Mat3f normals;        ///< camera frame, NaN outside; channels x, y, z
+  cv::Mat3f uncertainty;    ///< as in RefineResult; empty where the result has none
 };
 
 /// Reads a result folder. @throws InputError naming the file, the fault and the cure; IoError.

@@ -71,6 +71,23 @@ TEST(Evaluate, MeasuresTheAngleOfTiltedNormals) {
   EXPECT_NEAR(evaluate(plane.camera, plane.truth.depth, tilted, plane.truth).own_normals_mae_deg, 5, 1e-3);
 }
 
+TEST(Evaluate, CountsTheErrorsInsideTheErrorBars) {
+  const Plane plane;
+  cv::Mat1f depth = plane.truth.depth.clone();
+  cv::Mat3f bars(depth.size(), cv::Vec3f(0.001f, 0.1f, 8));
+  for (int y = 0; y < depth.rows; ++y) {
+    for (int x = 0; x < depth.cols; ++x) {
+      depth(y, x) += x % 2 == 0 ? 0.0005f : -0.0005f;                            // inside
+      if (y % 4 == 0) bars(y, x) = cv::Vec3f(0.0001f, 0.1f, 8);                  // outside: a quarter
+    }
+  }
+  cv::Mat3f normals = plane.truth.normals.clone();
+  for (int y = 0; y < depth.rows; y += 2) normals.row(y).setTo(cv::Scalar(1, 0, 0));  // outside: half
+  const ErrorBarReport report = evaluate_error_bars(plane.camera, depth, normals, bars, plane.truth);
+  EXPECT_NEAR(report.depth_within, 0.75, 0.03);
+  EXPECT_NEAR(report.normal_within, 0.5, 0.03);
+}
+
 TEST(Evaluate, ReportsMissingPixelsInsteadOfCountingThem) {
   const Plane plane;
   cv::Mat1f depth = plane.truth.depth.clone();

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "refine/evaluate.h"
@@ -61,6 +62,27 @@ TEST(RefineSimulated, AVaseWithShadowsHighlightsAndNoiseComesOutSharp) {
 
 TEST(RefineSimulated, ACoinComesOutSharpAtTwiceTheDepthsResolution) {
   expect_at_most(refine_simulated(rig(Realism::real, SceneKind::coin, 2), Preset::robust), 1.0, 0.72);
+}
+
+TEST(RefineSimulated, ErrorBarsHoldAboutTwoThirdsOfTheErrors) {
+  double depth = 0, normals = 0;
+  const SceneKind scenes[] = {SceneKind::vase, SceneKind::coin, SceneKind::drape, SceneKind::sphere};
+  for (const SceneKind scene : scenes) {
+    SimulateOptions options = rig(Realism::real, scene, 1);
+    options.width = 320;
+    options.height = 240;
+    options.lamps.count = 12;
+    const Simulated scan = simulate_stack(options);
+    const RefineResult result = refine_depth(scan.stack, preset_options(Preset::robust));
+    const ErrorBarReport bars =
+        evaluate_error_bars(result.camera, result.depth, result.normals, result.uncertainty, scan.truth);
+    EXPECT_GT(std::min(bars.depth_within, bars.normal_within), 0.5) << static_cast<int>(scene);
+    EXPECT_LT(std::max(bars.depth_within, bars.normal_within), 0.9) << static_cast<int>(scene);
+    depth += bars.depth_within / std::size(scenes);
+    normals += bars.normal_within / std::size(scenes);
+  }
+  EXPECT_NEAR(depth, 0.675, 0.075);
+  EXPECT_NEAR(normals, 0.675, 0.075);
 }
 
 /// Where broad lamp `k` of `count` stands.
