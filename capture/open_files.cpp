@@ -41,7 +41,8 @@ std::vector<Process> processes_with_open(const std::string& target, const fs::pa
     std::getline(std::ifstream(entry.path() / "comm"), process.name);
     processes.push_back(process);
   }
-  std::sort(processes.begin(), processes.end(), [](const Process& a, const Process& b) { return a.pid < b.pid; });
+  std::sort(processes.begin(), processes.end(),
+            [](const Process& a, const Process& b) { return a.pid < b.pid; });
   return processes;
 }
 

@@ -19,7 +19,8 @@ struct Process {
 
 /// Processes with an open file whose target, as /proc shows it, begins with `target`: a device's path, or
 /// "anon_inode:gpio-line" for requested GPIO lines. Those of other users are seen by root only. This one is left out.
-std::vector<Process> processes_with_open(const std::string& target, const std::filesystem::path& proc = "/proc");
+std::vector<Process> processes_with_open(const std::string& target,
+                                         const std::filesystem::path& proc = "/proc");
 
 /// "gpioset (process 4711), ..." or empty.
 std::string to_string(const std::vector<Process>& processes);

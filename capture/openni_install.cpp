@@ -5,9 +5,9 @@
 #include <OpenNI.h>
 #include <dlfcn.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <regex>
+#include <set>
 
 namespace rakelight {
 namespace fs = std::filesystem;
@@ -16,7 +16,8 @@ namespace {
 /// The library looks beside the name it was loaded by, links not resolved.
 fs::path drivers_folder() {
   Dl_info library{};
-  if (dladdr(reinterpret_cast<void*>(&oniGetVersion), &library) == 0 || library.dli_fname == nullptr) return {};
+  if (dladdr(reinterpret_cast<void*>(&oniGetVersion), &library) == 0 || library.dli_fname == nullptr)
+    return {};
   return fs::path(library.dli_fname).parent_path() / "OpenNI2" / "Drivers";
 }
 
@@ -35,16 +36,19 @@ OpenniDevice device_of(const openni::DeviceInfo& info) {
 
 OpenniDrivers list_openni_drivers(const fs::path& folder) {
   static const std::regex loadable("lib.*\\.so\\.0"), driver("lib.*\\.so(\\..*)?");
-  OpenniDrivers drivers;
-  drivers.folder = folder;
-  std::error_code error;
+  std::set<std::string> loaded, others;
+  std::error_code error;  // no such folder: no drivers
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (std::regex_match(name, loadable)) drivers.loaded.push_back(name);
-    else if (std::regex_match(name, driver)) drivers.skipped.push_back(name);
+    if (std::regex_match(name, loadable))
+      loaded.insert(name);
+    else if (std::regex_match(name, driver))
+      others.insert(name);
   }
-  std::sort(drivers.loaded.begin(), drivers.loaded.end());
-  std::sort(drivers.skipped.begin(), drivers.skipped.end());
+  OpenniDrivers drivers{folder, {loaded.begin(), loaded.end()}, {}};
+  for (const std::string& name : others) {
+    if (loaded.count(name + ".0") == 0) drivers.skipped.push_back(name);  // else a link for developers
+  }
   return drivers;
 }
 

@@ -16,9 +16,10 @@ struct OpenniDevice {
 };
 
 struct OpenniDrivers {
-  std::filesystem::path folder;      ///< where the loaded library looks for them
-  std::vector<std::string> loaded;   ///< file names, sorted
-  std::vector<std::string> skipped;  ///< drivers by another name than lib*.so.0: the library passes them over silently
+  std::filesystem::path folder;     ///< where the loaded library looks for them
+  std::vector<std::string> loaded;  ///< file names, sorted
+  std::vector<std::string>
+      skipped;  ///< drivers by another name than lib*.so.0: the library passes them over silently
 };
 
 struct OpenniInstall {

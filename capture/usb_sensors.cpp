@@ -22,19 +22,24 @@ struct FreeList {
 
 [[noreturn]] void fail(int error) {
   const auto code = error == LIBUSB_ERROR_ACCESS ? std::errc::permission_denied : std::errc::io_error;
-  throw std::system_error(std::make_error_code(code),
-                          std::string("cannot list USB devices: ") + libusb_strerror(error) +
-                              "; is /sys/bus/usb or /dev/bus/usb there?");
+  throw std::system_error(std::make_error_code(code), std::string("cannot list USB devices: ") +
+                                                          libusb_strerror(error) +
+                                                          "; is /sys/bus/usb or /dev/bus/usb there?");
 }
 
 UsbAccess access_of(int error) {
   switch (error) {
-    case LIBUSB_SUCCESS: return UsbAccess::usable;
-    case LIBUSB_ERROR_ACCESS: return UsbAccess::denied;
-    case LIBUSB_ERROR_BUSY: return UsbAccess::busy;
+    case LIBUSB_SUCCESS:
+      return UsbAccess::usable;
+    case LIBUSB_ERROR_ACCESS:
+      return UsbAccess::denied;
+    case LIBUSB_ERROR_BUSY:
+      return UsbAccess::busy;
     case LIBUSB_ERROR_NO_DEVICE:
-    case LIBUSB_ERROR_NOT_FOUND: return UsbAccess::gone;
-    default: return UsbAccess::trouble;
+    case LIBUSB_ERROR_NOT_FOUND:
+      return UsbAccess::gone;
+    default:
+      return UsbAccess::trouble;
   }
 }
 
@@ -50,12 +55,18 @@ int try_open(libusb_device* device) {
 
 double megabits(libusb_device* device) {
   switch (libusb_get_device_speed(device)) {
-    case LIBUSB_SPEED_LOW: return 1.5;
-    case LIBUSB_SPEED_FULL: return 12;
-    case LIBUSB_SPEED_HIGH: return 480;
-    case LIBUSB_SPEED_SUPER: return 5000;
-    case LIBUSB_SPEED_SUPER_PLUS: return 10000;
-    default: return 0;
+    case LIBUSB_SPEED_LOW:
+      return 1.5;
+    case LIBUSB_SPEED_FULL:
+      return 12;
+    case LIBUSB_SPEED_HIGH:
+      return 480;
+    case LIBUSB_SPEED_SUPER:
+      return 5000;
+    case LIBUSB_SPEED_SUPER_PLUS:
+      return 10000;
+    default:
+      return 0;
   }
 }
 
@@ -69,7 +80,8 @@ std::string port_of(libusb_device* device) {
   return text;
 }
 
-UsbSensor examine(libusb_device* device, const libusb_device_descriptor& descriptor, const KnownSensor& kind) {
+UsbSensor examine(libusb_device* device, const libusb_device_descriptor& descriptor,
+                  const KnownSensor& kind) {
   UsbSensor sensor;
   sensor.vendor = descriptor.idVendor;
   sensor.product = descriptor.idProduct;
@@ -88,11 +100,16 @@ UsbSensor examine(libusb_device* device, const libusb_device_descriptor& descrip
 
 std::string to_string(UsbAccess access) {
   switch (access) {
-    case UsbAccess::usable: return "usable";
-    case UsbAccess::denied: return "no permission";
-    case UsbAccess::busy: return "busy";
-    case UsbAccess::gone: return "gone";
-    case UsbAccess::trouble: return "trouble";
+    case UsbAccess::usable:
+      return "usable";
+    case UsbAccess::denied:
+      return "no permission";
+    case UsbAccess::busy:
+      return "busy";
+    case UsbAccess::gone:
+      return "gone";
+    case UsbAccess::trouble:
+      return "trouble";
   }
   return "trouble";
 }

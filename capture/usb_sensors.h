@@ -26,10 +26,10 @@ struct UsbSensor {
   std::uint16_t vendor = 0, product = 0;
   KnownSensor kind;
   int bus = 0, address = 0;
-  std::string port;        ///< where it is plugged in, counted from the root hub: "1.3"
-  double megabits = 0;     ///< a second; 0: not known
+  std::string port;     ///< where it is plugged in, counted from the root hub: "1.3"
+  double megabits = 0;  ///< a second; 0: not known
   UsbAccess access = UsbAccess::usable;
-  std::string trouble;     ///< libusb's word where access is trouble
+  std::string trouble;  ///< libusb's word where access is trouble
 
   std::string usb_id() const;  ///< "1d27:0601"
   std::string node() const;    ///< its file, "/dev/bus/usb/002/005"
