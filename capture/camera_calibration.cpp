@@ -3,6 +3,7 @@
 #include "capture/camera_calibration.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <opencv2/calib3d.hpp>
 #include <set>
@@ -47,6 +48,23 @@ double covered_share(const Points2& corners, cv::Size size) {
     }
   }
   return static_cast<double>(cells.size()) / (kCells * kCells);
+}
+
+/// Views of one tilt cannot tell focal length from distance, however small their residuals are.
+void check_tilts(const std::vector<cv::Mat>& rotations) {
+  constexpr double kLeast = 15 * CV_PI / 180;
+  std::vector<cv::Vec3d> normals;
+  for (const cv::Mat& rotation : rotations) {
+    cv::Matx33d R;
+    cv::Rodrigues(rotation, R);
+    normals.emplace_back(R(0, 2), R(1, 2), R(2, 2));
+  }
+  double least_cosine = 1;
+  for (const cv::Vec3d& a : normals)
+    for (const cv::Vec3d& b : normals) least_cosine = std::min(least_cosine, a.dot(b));
+  if (least_cosine < std::cos(kLeast)) return;
+  throw InputError("the views", "show the board at one tilt, which tells nothing of the focal length",
+                   kMoreViews);
 }
 
 void check_determined(const CameraFit& fit) {
@@ -104,6 +122,7 @@ CameraFit calibrate_camera(const std::vector<BoardView>& views, const CharucoBoa
   fit.deviation_px = {s(0), s(1), s(2), s(3)};
   fit.view_rms_px.assign(e.begin(), e.end());
   fit.covered = covered_share(corners, size);
+  check_tilts(rotations);
   check_determined(fit);
   return fit;
 }

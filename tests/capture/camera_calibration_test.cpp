@@ -34,22 +34,27 @@ std::vector<BoardView> views(const Camera& camera, const Eigen::Isometry3d& T_ca
   return found;
 }
 
+const std::vector<BoardView>& color_views() {
+  static const auto found = views(kColor, Eigen::Isometry3d::Identity());
+  return found;
+}
+
 TEST(CameraCalibration, FindsTheCameraThatTookThePictures) {
-  const CameraFit fit = calibrate_camera(views(kColor, Eigen::Isometry3d::Identity()), kBoard);
-  EXPECT_GE(fit.views.size(), 9u);
+  const CameraFit fit = calibrate_camera(color_views(), kBoard);
+  EXPECT_GE(fit.views.size(), 12u);
   EXPECT_LT(fit.rms_px, 0.15);
-  EXPECT_NEAR(fit.camera.fx, kColor.fx, 1.0);
-  EXPECT_NEAR(fit.camera.fy, kColor.fy, 1.0);
-  EXPECT_NEAR(fit.camera.cx, kColor.cx, 1.0);
-  EXPECT_NEAR(fit.camera.cy, kColor.cy, 1.0);
+  const Eigen::Vector4d error(fit.camera.fx - kColor.fx, fit.camera.fy - kColor.fy, fit.camera.cx - kColor.cx,
+                              fit.camera.cy - kColor.cy);
+  EXPECT_LT(error.cwiseAbs().maxCoeff(), 3.0) << error.transpose();
+  EXPECT_LT(error.cwiseQuotient(fit.deviation_px).cwiseAbs().maxCoeff(), 3.0) << "in standard deviations";
   ASSERT_EQ(fit.camera.distortion.size(), 4u);
   EXPECT_NEAR(fit.camera.distortion[0], kColor.distortion[0], 0.02);
-  EXPECT_LT(fit.deviation_px.maxCoeff(), 1.0);
+  EXPECT_LT(fit.deviation_px.maxCoeff(), 3.0);
   EXPECT_GE(fit.covered, 0.9);
 }
 
 TEST(CameraCalibration, FindsTheMotionBetweenTheCameras) {
-  const auto color = views(kColor, Eigen::Isometry3d::Identity());
+  const auto& color = color_views();
   const auto depth = views(kDepth, color_from_depth().inverse());
   const PairFit pair = calibrate_pair(color, calibrate_camera(color, kBoard).camera, depth,
                                       calibrate_camera(depth, kBoard).camera, kBoard);
@@ -70,7 +75,7 @@ TEST(CameraCalibration, FindsCornersOfABoardThatIsPartlyOutside) {
 }
 
 TEST(CameraCalibration, RefusesTooFewPictures) {
-  auto some = views(kColor, Eigen::Isometry3d::Identity());
+  auto some = color_views();
   some.resize(4);
   some.push_back({"wall", kColor.size(), {}, {}});
   EXPECT_THAT(message_of<InputError>([&] { calibrate_camera(some, kBoard); }),
@@ -84,11 +89,11 @@ TEST(CameraCalibration, RefusesABoardThatWasNeverTilted) {
     pose.translation() = Eigen::Vector3d(0.01 * k, -0.01 * k, 0.45);
     flat.push_back(find_board(render_board(kBoard, pose, kColor), kBoard, "flat"));
   }
-  EXPECT_THAT(message_of<InputError>([&] { calibrate_camera(flat, kBoard); }), HasSubstr("focal length"));
+  EXPECT_THAT(message_of<InputError>([&] { calibrate_camera(flat, kBoard); }), HasSubstr("at one tilt"));
 }
 
 TEST(CameraCalibration, RefusesPicturesOfTwoSizes) {
-  auto mixed = views(kColor, Eigen::Isometry3d::Identity());
+  auto mixed = color_views();
   mixed[3].size = {1280, 960};
   EXPECT_THAT(message_of<InputError>([&] { calibrate_camera(mixed, kBoard); }),
               HasSubstr("view 3: has another size"));

@@ -10,20 +10,33 @@ namespace rakelight::test {
 namespace {
 
 constexpr int kPixelsPerSquare = 60;
-constexpr int kSamples = 3;  // a pixel and side
+constexpr int kSamples = 2;  // a pixel and side
 constexpr float kWall = 90;  // grey of what is behind the board
+
+/// Rays (x/z, y/z) of kSamples x kSamples samples a pixel: exact at pixel centres, linear between.
+cv::Mat2f sample_rays(const Camera& camera) {
+  std::vector<cv::Point2d> pixels, rays;
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u) pixels.emplace_back(u, v);
+  const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  cv::undistortPoints(pixels, rays, K, camera.distortion);
+  cv::Mat2f samples;
+  cv::Mat2f(cv::Mat(rays).reshape(2, camera.height)).copyTo(samples);
+  cv::resize(samples, samples, camera.size() * kSamples, 0, 0, cv::INTER_LINEAR);
+  return samples;
+}
 
 }  // namespace
 
 std::vector<BoardPose> varied_poses() {
   std::vector<BoardPose> poses;
-  for (int k = 0; k < 10; ++k) {
-    const double turn = 2 * M_PI * k / 10;
+  for (int k = 0; k < 14; ++k) {
+    const double turn = 2 * M_PI * k / 14;
     const Eigen::Vector3d axis(std::cos(turn), std::sin(turn), 0.3 * (k % 3 - 1));
     BoardPose pose = BoardPose::Identity();
-    pose.linear() = Eigen::AngleAxisd(0.35 + 0.03 * k, axis.normalized()).toRotationMatrix();
+    pose.linear() = Eigen::AngleAxisd(0.4 + 0.02 * k, axis.normalized()).toRotationMatrix();
     pose.translation() =
-        Eigen::Vector3d(0.11 * std::cos(2 * turn + 0.5), 0.08 * std::sin(2 * turn + 0.5), 0.42 + 0.02 * k);
+        Eigen::Vector3d(0.11 * std::cos(2 * turn + 0.5), 0.08 * std::sin(2 * turn + 0.5), 0.36 + 0.012 * k);
     poses.push_back(pose);
   }
   return poses;
@@ -31,26 +44,19 @@ std::vector<BoardPose> varied_poses() {
 
 cv::Mat1b render_board(const CharucoBoard& board, const BoardPose& T_camera_board, const Camera& camera) {
   const cv::Mat1b print = draw_board(board, kPixelsPerSquare);
-  std::vector<cv::Point2d> samples, rays;
-  for (int v = 0; v < kSamples * camera.height; ++v) {
-    for (int u = 0; u < kSamples * camera.width; ++u)
-      samples.emplace_back((u + 0.5) / kSamples - 0.5, (v + 0.5) / kSamples - 0.5);
-  }
-  const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-  cv::undistortPoints(samples, rays, K, camera.distortion, cv::noArray(), cv::noArray(),
-                      cv::TermCriteria(cv::TermCriteria::COUNT, 20, 0));
+  const cv::Mat2f rays = sample_rays(camera);
   // The board is z = 0 of its own frame: where does each ray meet it?
   const Eigen::Isometry3d T_board_camera = T_camera_board.inverse();
   const Eigen::Vector3d eye = T_board_camera.translation();
-  cv::Mat2f map(kSamples * camera.height, kSamples * camera.width);
-  for (std::size_t k = 0; k < rays.size(); ++k) {
-    const Eigen::Vector3d ray = T_board_camera.linear() * Eigen::Vector3d(rays[k].x, rays[k].y, 1);
+  cv::Mat2f map(rays.size());
+  for (int k = 0; k < map.rows * map.cols; ++k) {
+    const cv::Vec2d direction = rays(k / map.cols, k % map.cols);
+    const Eigen::Vector3d ray = T_board_camera.linear() * Eigen::Vector3d(direction[0], direction[1], 1);
     const Eigen::Vector3d hit = eye - eye.z() / ray.z() * ray;
     const auto pixel = [&](double at, int squares) {
       return static_cast<float>((at / board.square_m + 0.5 * (squares + 1)) * kPixelsPerSquare - 0.5);
     };
-    map(static_cast<int>(k) / map.cols, static_cast<int>(k) % map.cols) =
-        cv::Vec2f(pixel(hit.x(), board.columns), pixel(hit.y(), board.rows));
+    map(k / map.cols, k % map.cols) = cv::Vec2f(pixel(hit.x(), board.columns), pixel(hit.y(), board.rows));
   }
   cv::Mat1b fine, picture;
   cv::remap(print, fine, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(kWall));
