@@ -75,7 +75,8 @@ void run(const std::filesystem::path& folder, const CalibrateTarget& target) {
   catch_interrupts();
   const RefineResult result = refine_with_near_lamps(read_stack(folder));
   for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
-  std::string text = "lamps in colour-camera coordinates (x right, y down, z forward):\n";
+  std::string text =
+      "lamps in colour-camera coordinates (x right, y down, z forward), +- the statistical spread only:\n";
   json lamps = json::array();
   for (const LightEstimate& lamp : result.lights) {
     if (!lamp.position_m) continue;
