@@ -18,12 +18,13 @@ namespace {
 
 constexpr const char* kPinsFile = "/run/pins";
 
-bool chip_exists() { return std::filesystem::exists("/dev/gpiochip0"); }
-
-template <class Condition>
-void wait_until(Condition condition, const char* what) {
-  for (int i = 0; i < 1000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  if (!condition()) throw std::runtime_error(std::string("after 10 s still waiting for ") + what);
+/// The one GPIO chip of the virtual machine, "gpiochip0"; empty where there is none.
+std::string find_chip() {
+  for (const auto& entry : std::filesystem::directory_iterator("/dev")) {
+    const std::string name = entry.path().filename();
+    if (name.rfind("gpiochip", 0) == 0) return name;
+  }
+  return {};
 }
 
 Pins* create_pins() {
@@ -53,7 +54,11 @@ pid_t start_program(const std::string& name, const std::vector<std::string>& arg
 }
 
 FakeAdapter::FakeAdapter() : pins_(create_pins()), pid_(start_program("fake_cp2112", {kPinsFile})) {
-  wait_until(chip_exists, "/dev/gpiochip0");
+  for (int i = 0; i < 1000 && chip_.empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    chip_ = find_chip();
+  }
+  if (chip_.empty()) throw std::runtime_error("the kernel has made no GPIO chip of the fake adapter in 10 s");
 }
 
 FakeAdapter::~FakeAdapter() {
@@ -66,7 +71,8 @@ void FakeAdapter::unplug() {
   kill(pid_, SIGKILL);
   waitpid(pid_, nullptr, 0);
   pid_ = 0;
-  for (int i = 0; i < 1000 && chip_exists(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 1000 && !find_chip().empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
 std::vector<PinEvent> FakeAdapter::since(std::uint32_t count) const {

@@ -26,14 +26,17 @@ class FakeAdapter {
 
   void unplug();
 
+  /// "gpiochip0", or another number: the kernel does not use one again whose lines were held when it went.
+  const std::string& chip() const { return chip_; }
   int levels() const { return pins_->levels; }
   std::uint32_t count() const { return pins_->count; }
   /// Writes since there were `count`, in order.
   std::vector<PinEvent> since(std::uint32_t count) const;
 
  private:
-  Pins* pins_ = nullptr;
-  pid_t pid_ = 0;
+  Pins* pins_;
+  pid_t pid_;
+  std::string chip_;
 };
 
 }  // namespace rakelight::test

@@ -23,16 +23,17 @@ using testing::HasSubstr;
 
 class GpioBankOnAKernel : public testing::Test {
  protected:
+  /// By the chip's label, and one by its name.
+  std::vector<GpioLine> lines(bool active_low = false) const {
+    return {{"", "cp2112_gpio", 0, active_low},
+            {"", "cp2112_gpio", 3, active_low},
+            {"", adapter.chip(), 5, active_low}};
+  }
+
   FakeAdapter adapter;
 };
 
 const std::vector<std::string> kIds = {"red", "green", "blue"};
-
-std::vector<GpioLine> lines(bool active_low = false) {
-  return {{"", "cp2112_gpio", 0, active_low},
-          {"", "cp2112_gpio", 3, active_low},
-          {"", "gpiochip0", 5, active_low}};
-}
 
 /// "5=0 0=1": the pins that were written and their levels.
 std::string text(const std::vector<PinEvent>& events) {
@@ -53,7 +54,7 @@ std::pair<std::error_code, std::string> error_of_opening(const std::vector<GpioL
 TEST_F(GpioBankOnAKernel, IsListed) {
   const std::vector<GpioChip> chips = list_gpio_chips();
   ASSERT_EQ(chips.size(), 1U);
-  EXPECT_EQ(chips[0].path, "/dev/gpiochip0");
+  EXPECT_EQ(chips[0].path, "/dev/" + adapter.chip());
   EXPECT_EQ(chips[0].label, "cp2112_gpio");
   EXPECT_FALSE(chips[0].fault);
   ASSERT_EQ(chips[0].lines.size(), 8U);
@@ -127,7 +128,7 @@ TEST_F(GpioBankOnAKernel, SaysWhoHoldsABusyLine) {
   const auto held = open_gpio_bank({{"", "cp2112_gpio", 3, false}}, other);
   const auto [code, message] = error_of_opening(lines());
   EXPECT_EQ(code, std::errc::device_or_resource_busy);
-  EXPECT_THAT(message, AllOf(HasSubstr("line 3 of gpiochip0"), HasSubstr("\"blinker\" holds it")));
+  EXPECT_THAT(message, AllOf(HasSubstr("line 3 of " + adapter.chip()), HasSubstr("\"blinker\" holds it")));
 }
 
 TEST_F(GpioBankOnAKernel, ReleasesItsLines) {

@@ -83,8 +83,7 @@ TEST_F(ProgramWithLamps, LeavesNothingLitWhenInterruptedWhileItStarts) {
     kill(pid, run % 2 == 0 ? SIGINT : SIGTERM);
     waitpid(pid, nullptr, 0);
     std::this_thread::sleep_for(20ms);  // killed before it could catch the signal: the guard's turn
-    for (const PinEvent& event : adapter.since(start)) start = event.offset < kLines ? start : 0;
-    EXPECT_TRUE(adapter.count() == 0 || dark()) << "run " << run;
+    EXPECT_TRUE(adapter.count() == start || dark()) << "run " << run;
   }
 }
 
