@@ -119,6 +119,7 @@ int run(int argc, char** argv) {
 #endif
 #ifdef RAKELIGHT_HAS_CAPTURE
   add_calibrate_command(program, exit_code);
+  add_lights_command(program, exit_code);
   add_doctor_command(program, exit_code);
 #endif
   add_import_command(program, exit_code);
