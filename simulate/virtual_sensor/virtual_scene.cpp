@@ -14,9 +14,10 @@
 namespace rakelight {
 namespace {
 
-constexpr int kSamples = 2;              // rays a pixel and dimension: pre-rendering shall not be felt
-const cv::Size kMeteringGrid{160, 120};  // for the exposure: the same for every mode
-constexpr int kMeteringSamples = 2;
+constexpr int kSamples = 2;  // rays a pixel and dimension: pre-rendering shall not be felt
+const cv::Size kMeshGrid{
+    320, 240};  // facets of half a pixel of this grid: building their tree takes a quarter second
+const cv::Size kMeteringGrid{160, 120};  // for the exposure, which is then the same for every mode
 
 SimulateOptions simulate_options(const VirtualSensorSetup& setup) {
   SimulateOptions options;
@@ -88,9 +89,9 @@ struct VirtualScene::Parts {
   explicit Parts(const VirtualSensorSetup& setup)
       : options(simulate_options(setup)),
         lamps(place_lamps(setup, options)),
-        tracer(make_scene(options.scene, structured_light_camera(setup.color_size))) {
+        tracer(make_scene(options.scene, structured_light_camera(kMeshGrid))) {
     SimulateOptions metering = options;
-    metering.image.samples = kMeteringSamples;
+    metering.image.samples = 1;
     const ShadingContext context{metering, tracer, center()};
     exposure = auto_exposure(context, structured_light_camera(kMeteringGrid), one_at_a_time(lamps));
   }
