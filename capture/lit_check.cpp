@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "stack/color_response.h"
 
@@ -174,12 +175,15 @@ std::string LitSignatures::text() const {
       .dump();
 }
 
-LitSignatures LitSignatures::parse(const std::string& text, const ColorResponse& response) {
+LitSignatures LitSignatures::parse(const std::string& text, const ColorResponse& response, int height) {
   const auto json = nlohmann::json::parse(text);
   LitSignatures result;
   result.response_ = response;
   result.bands_.first_row = json.at("first_row").get<std::array<int, 3>>();
   result.bands_.rows = json.at("rows").get<int>();
+  for (const int row : result.bands_.first_row) {
+    if (row < 0 || result.bands_.rows < 1 || row > height - result.bands_.rows) throw std::out_of_range("bands");
+  }
   result.dark_ = parse_signature(json.at("dark"));
   for (const auto& [light, signature] : json.at("lit").items()) result.lit_[light] = parse_signature(signature);
   return result;

@@ -38,9 +38,9 @@ class LitSignatures {
  public:
   LitSignatures() = default;
   LitSignatures(SignatureBands bands, ColorResponse response, const cv::Mat& dark);
-  /// From what state_json wrote. @throws std::exception of the JSON library
-  static LitSignatures parse(const std::string& text, const ColorResponse& response);
-  std::string text() const;
+  /// From what text() gave. @param height of the images  @throws std::exception if it is not whole
+  static LitSignatures parse(const std::string& text, const ColorResponse& response, int height);
+  std::string text() const;  ///< JSON
 
   bool empty() const { return bands_.rows == 0; }
   void learn(const std::string& light, const cv::Mat& color);
