@@ -53,7 +53,9 @@ cv::Mat1b middle_piece(const cv::Mat1f& depth, const cv::Mat1b& lit) {
   area[0] = 0;
   const auto best = std::max_element(area.begin(), area.end());
   if (*best == 0) return cv::Mat1b(depth.size(), uchar{0});
-  return labels == static_cast<int>(best - area.begin());
+  cv::Mat1b piece;
+  cv::compare(labels, static_cast<int>(best - area.begin()), piece, cv::CMP_EQ);
+  return piece;
 }
 
 /// 255 where there is depth and light.
@@ -65,7 +67,9 @@ cv::Mat1b lit_cells(const cv::Mat1f& depth, const cv::Mat1f& light) {
   if (values.empty()) return cv::Mat1b(depth.size(), uchar{0});
   const auto rank = values.begin() + std::ptrdiff_t(kBrightRank * double(values.size() - 1));
   std::nth_element(values.begin(), rank, values.end());
-  return (depth > 0) & (light > kLitShare * *rank);
+  cv::Mat1b lit;
+  cv::bitwise_and(depth > 0, light > kLitShare * *rank, lit);
+  return lit;
 }
 
 /// Nearest reading of all frames, metres; 0: none.

@@ -41,7 +41,7 @@ RowProfile row_profile(const cv::Mat& color, const ColorResponse& response) {
     for (int y = first; y < std::min(first + kRowsPerBand, color.rows); ++y) {
       for (int x = 0; x < color.cols; x += kColumnStep, ++count) {
         const auto& pixel = color.at<cv::Vec3b>(y, x);
-        sum += decoded[pixel[0]] + decoded[pixel[1]] + decoded[pixel[2]];
+        sum += static_cast<double>(decoded[pixel[0]] + decoded[pixel[1]] + decoded[pixel[2]]);
       }
     }
     profile.push_back(static_cast<float>(sum / count));

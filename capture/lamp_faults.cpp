@@ -24,7 +24,9 @@ class FaultFinder {
   FaultFinder(const std::vector<RigLamp>& lamps, const CoarseScene& scene, const LampPictures& pictures)
       : lamps_(lamps), scene_(scene), pictures_(pictures) {
     for (std::size_t k = 0; k < lamps.size(); ++k) {
-      light_.push_back(cv::max(pictures.lit[k] - pictures.dark, cv::Scalar::all(0)));
+      cv::Mat3f light;
+      cv::subtract(pictures.lit[k], pictures.dark, light);
+      light_.push_back(light);
       color_.push_back(mean_over_object(light_[k]));
       level_.push_back(own_level(k, color_[k]) / expected(k));
     }
