@@ -55,8 +55,8 @@ float largest_difference(const RowProfile& a, const RowProfile& b) {
   return largest;
 }
 
-std::optional<double> edge_time(const std::vector<ProfiledFrame>& frames, const RowProfile& before,
-                                const RowProfile& after, const FrameTiming& timing) {
+std::optional<EdgeTime> edge_time(const std::vector<ProfiledFrame>& frames, const RowProfile& before,
+                                  const RowProfile& after, const FrameTiming& timing) {
   const float visible = kVisibleShare * largest_difference(before, after);
   std::vector<double> seen;
   std::optional<double> last_unlit, first_lit;  // closing of an unlit band, opening of a lit one
@@ -74,8 +74,9 @@ std::optional<double> edge_time(const std::vector<ProfiledFrame>& frames, const 
     }
   }
   if (!last_unlit || !first_lit) return std::nullopt;
-  if (!seen.empty()) return median(std::move(seen));
-  return (*last_unlit + *first_lit) / 2;
+  if (seen.empty()) return EdgeTime{*last_unlit, *first_lit};
+  const double edge = median(std::move(seen));
+  return EdgeTime{edge, edge};
 }
 
 }  // namespace rakelight

@@ -25,10 +25,15 @@ struct ProfiledFrame {
   RowProfile profile;
 };
 
-/// The device time at which the light changed from `before` to `after`: a band whose exposure saw the share f of the change
-/// closed f * exposure after the edge. The median over all bands that saw a part of it; where none did, the edge fell
-/// between the exposures of two frames, and it is placed in the middle. Nothing if no frame is on one side.
-std::optional<double> edge_time(const std::vector<ProfiledFrame>& frames, const RowProfile& before,
-                                const RowProfile& after, const FrameTiming& timing);
+/// Device time between which an edge lies: equal where rows caught it.
+struct EdgeTime {
+  double earliest_us = 0, latest_us = 0;
+};
+
+/// When the light changed from `before` to `after`: a band whose exposure saw the share f of the new light closed
+/// f * exposure after the edge. The median over all bands that saw a part of it; where none did, the edge fell between the
+/// exposures of two frames (one of which may be lost). Nothing if no frame is on one side.
+std::optional<EdgeTime> edge_time(const std::vector<ProfiledFrame>& frames, const RowProfile& before,
+                                  const RowProfile& after, const FrameTiming& timing);
 
 }  // namespace rakelight

@@ -14,12 +14,13 @@ namespace {
 constexpr std::int64_t kStallLimit_us = 1'500'000;  // the program must say so within 2 s
 constexpr std::int64_t kSlice_us = 20'000;          // how long a wait may be deaf to an interrupt
 constexpr std::size_t kDepthKept = 90;
-constexpr double kPeriodWeight = 0.05;  // of one interval in the running mean
+constexpr int kFewestPeriods = 3;
+constexpr double kPeriodTolerance = 0.1;  // beyond it the frames' numbers are not to be trusted
 
 }  // namespace
 
 FrameFeed::FrameFeed(FrameSource& source, HostClock& clock, FrameTiming timing, KeepGoing keep_going)
-    : source_(source), clock_(clock), timing_(timing), keep_going_(std::move(keep_going)),
+    : source_(source), clock_(clock), timing_(timing), nominal_period_us_(timing.period_us), keep_going_(std::move(keep_going)),
       last_arrival_us_(clock.now_us()) {}
 
 void FrameFeed::check_keep_going() const {
@@ -35,14 +36,17 @@ void FrameFeed::drain_depth() {
   }
 }
 
-/// Devices say 30 fps and mean 29.97: intervals between neighbours tell the truth.
+/// Devices say 30 fps and mean 29.97: the stamps tell, the more exactly the longer the stream runs.
 void FrameFeed::learn_period(const TimedFrame& frame) {
-  const int steps = frame.frame.index - last_index_;
-  if (frame.epoch != last_epoch_ || steps < 1) return;
-  const double interval = static_cast<double>(frame.time_us - *last_time_us_) / steps;
-  if (std::abs(interval - timing_.period_us) > 0.1 * timing_.period_us) return;
-  timing_.period_us += kPeriodWeight * (interval - timing_.period_us);
-  dropped_ += steps - 1;
+  if (last_time_us_) dropped_ += std::max(0, frame.frame.index - last_index_ - 1);
+  if (!first_ || first_->epoch != frame.epoch || frame.frame.index < first_->index) {
+    first_ = First{frame.time_us, frame.frame.index, frame.epoch};
+    return;
+  }
+  const int periods = frame.frame.index - first_->index;
+  if (periods < kFewestPeriods) return;
+  const double period_us = static_cast<double>(frame.time_us - first_->time_us) / periods;
+  if (std::abs(period_us / nominal_period_us_ - 1) < kPeriodTolerance) timing_.period_us = period_us;
 }
 
 std::optional<TimedFrame> FrameFeed::poll(std::chrono::milliseconds timeout) {
@@ -62,10 +66,9 @@ std::optional<TimedFrame> FrameFeed::poll(std::chrono::milliseconds timeout) {
   timed.time_us = fit_.add(frame->device_us, frame->host_us);
   timed.epoch = fit_.epoch();
   timed.frame = std::move(*frame);
-  if (last_time_us_) learn_period(timed);
+  learn_period(timed);
   last_time_us_ = timed.time_us;
   last_index_ = timed.frame.index;
-  last_epoch_ = timed.epoch;
   return timed;
 }
 

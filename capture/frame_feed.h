@@ -53,6 +53,11 @@ class FrameFeed {
   int dropped() const { return dropped_; }
 
  private:
+  /// What the period is counted from.
+  struct First {
+    std::int64_t time_us;
+    int index, epoch;
+  };
   std::optional<TimedFrame> poll(std::chrono::milliseconds timeout);
   void drain_depth();
   void learn_period(const TimedFrame& frame);
@@ -60,12 +65,14 @@ class FrameFeed {
   FrameSource& source_;
   HostClock& clock_;
   FrameTiming timing_;
+  double nominal_period_us_;
   KeepGoing keep_going_;
   ClockFit fit_;
   std::deque<SensorFrame> depth_;
   std::int64_t last_arrival_us_, newest_depth_us_ = 0;
   std::optional<std::int64_t> last_time_us_;
-  int last_index_ = -1, last_epoch_ = 0, dropped_ = 0;
+  std::optional<First> first_;
+  int last_index_ = -1, dropped_ = 0;
 };
 
 }  // namespace rakelight

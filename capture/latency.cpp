@@ -16,6 +16,8 @@ constexpr float kSettled = 0.05F;                  // of the change: two frames 
 constexpr float kNoise = 0.006F;                   // of a band's mean: they may differ by as much anyway
 constexpr std::int64_t kPatience_us = 400'000;     // the longest lag that is waited for
 constexpr int kSettleFrames = 6;
+constexpr int kMostToggles = 12;                   // short exposures see an edge only now and then
+constexpr double kSharp_us = 500;
 constexpr double kGoldenRatio = 0.6180339887;      // its multiples fall evenly into a period
 
 ProfiledFrame profiled(const TimedFrame& frame, const ColorResponse& response) {
@@ -42,9 +44,9 @@ class LagMeasurement {
   LagMeasurement(FrameFeed& feed, Lights& lights, const LatencyOptions& options)
       : feed_(feed), lights_(lights), options_(options) {}
 
-  /// Switches to `lit` and adds the edge. @return whether it was seen
+  /// Switches to `lit` after a wait of another share of the frame period each time and adds the edge. @return whether it was seen
   bool edge(const std::vector<std::string>& lit, LagEstimate& estimate) {
-    if (options_.spread_phases) wait_for_next_phase();
+    wait_for_next_phase();
     LampEdge written;
     written.before_us = feed_.clock().now_us();
     lights_.show(lit);
@@ -86,21 +88,48 @@ class LagMeasurement {
 
 }  // namespace
 
+bool LagEstimate::Edge::sharp() const { return seen.latest_us - seen.earliest_us <= kSharp_us; }
+
+bool LagEstimate::has_sharp(bool on) const {
+  return std::any_of(edges_.begin(), edges_.end(), [on](const Edge& e) { return e.on == on && e.sharp(); });
+}
+
+/// The edges that tell most: the sharp ones, or all.
+std::vector<const LagEstimate::Edge*> LagEstimate::best(bool on) const {
+  std::vector<const Edge*> edges;
+  for (const Edge& edge : edges_) {
+    if (edge.on == on && (edge.sharp() || !has_sharp(on))) edges.push_back(&edge);
+  }
+  return edges;
+}
+
 std::vector<double> LagEstimate::lags_us(const ClockFit& fit, bool on) const {
   std::vector<double> lags;
-  for (const Edge& edge : edges_) {
-    if (edge.on != on) continue;
-    const std::int64_t written = on ? edge.written.after_us : edge.written.before_us;
-    lags.push_back(fit.host_at(std::llround(edge.seen_us)) - static_cast<double>(written));
+  for (const Edge* edge : best(on)) {
+    const std::int64_t written = on ? edge->written.after_us : edge->written.before_us;
+    const double seen = (edge->seen.earliest_us + edge->seen.latest_us) / 2;
+    lags.push_back(fit.host_at(std::llround(seen)) - static_cast<double>(written));
   }
   std::sort(lags.begin(), lags.end());
   return lags;
 }
 
+/// From the least to the greatest lag that the edges allow.
+std::optional<LagEstimate::Span> LagEstimate::span(const ClockFit& fit, bool on) const {
+  std::optional<Span> span;
+  for (const Edge* edge : best(on)) {
+    const auto written = static_cast<double>(on ? edge->written.after_us : edge->written.before_us);
+    const double least = fit.host_at(std::llround(edge->seen.earliest_us)) - written;
+    const double most = fit.host_at(std::llround(edge->seen.latest_us)) - written;
+    span = span ? Span{std::min(span->least_us, least), std::max(span->most_us, most)} : Span{least, most};
+  }
+  return span;
+}
+
 LampLag LagEstimate::bounds(const ClockFit& fit, double jitter_us, double margin_us) const {
-  const std::vector<double> on = lags_us(fit, true), off = lags_us(fit, false);
+  const std::optional<Span> on = span(fit, true), off = span(fit, false);
   const double doubt = jitter_us + margin_us;
-  return {(on.empty() ? off : on).back() + doubt, (off.empty() ? on : off).front() - doubt};
+  return {(on ? on : off)->most_us + doubt, (off ? off : on)->least_us - doubt};
 }
 
 std::optional<LagEstimate> measure_lag(FrameFeed& feed, Lights& lights, const std::string& lamp,
@@ -110,7 +139,10 @@ std::optional<LagEstimate> measure_lag(FrameFeed& feed, Lights& lights, const st
   measurement.settle();
   LagEstimate estimate;
   estimate.epoch = feed.clock_fit().epoch();
-  for (int i = 0; i < options.toggles; ++i) {
+  const auto enough = [&](int toggles) {
+    return toggles >= kMostToggles || (estimate.has_sharp(true) && estimate.has_sharp(false));
+  };
+  for (int i = 0; i < options.toggles || !enough(i); ++i) {
     const bool lit = measurement.edge({lamp}, estimate), darkened = lit && measurement.edge({}, estimate);
     lights.all_off();
     if (!darkened) return std::nullopt;
@@ -128,9 +160,8 @@ LatencyCalibration summarise(const LagEstimate& estimate, const ClockFit& fit) {
 }
 
 LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostClock& clock, const FrameTiming& timing,
-                                     const std::string& lamp, LatencyOptions options,
+                                     const std::string& lamp, const LatencyOptions& options,
                                      FrameFeed::KeepGoing keep_going) {
-  options.spread_phases = true;
   source.start();
   FrameFeed feed(source, clock, timing, std::move(keep_going));
   const std::optional<LagEstimate> estimate = measure_lag(feed, lights, lamp, options);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/edge_time.h"
 #include "capture/frame_feed.h"
 #include "lights/lights.h"
 #include "stack/stack.h"
@@ -22,19 +23,28 @@ class LagEstimate {
   struct Edge {
     LampEdge written;
     bool on = true;
-    double seen_us = 0;  ///< device time
+    EdgeTime seen;
+    bool sharp() const;  ///< seen to within the gate's margin
   };
   void add(const Edge& edge) { edges_.push_back(edge); }
   const std::vector<Edge>& edges() const { return edges_; }
+  bool has_sharp(bool on) const;
   int epoch = 0;  ///< of the device clock the edges were seen in
 
-  /// The lag of each edge: off the end of the write for one that lights, off its beginning for one that darkens. Sorted.
+  /// Mid-lag of each sharp edge, of all if none is: from the end of the write for one that lights, from its beginning for
+  /// one that darkens. Sorted.
   std::vector<double> lags_us(const ClockFit& fit, bool on) const;
 
   /// Bounds for the gate. @param jitter_us that the lamps may add  @param margin_us for the error of the measurement
   LampLag bounds(const ClockFit& fit, double jitter_us, double margin_us) const;
 
  private:
+  struct Span {
+    double least_us = 0, most_us = 0;
+  };
+  std::optional<Span> span(const ClockFit& fit, bool on) const;
+  std::vector<const Edge*> best(bool on) const;
+
   std::vector<Edge> edges_;
 };
 
@@ -46,8 +56,7 @@ struct LatencyCalibration {
 };
 
 struct LatencyOptions {
-  int toggles = 1;             ///< times on and off again
-  bool spread_phases = false;  ///< wait between the edges, so that they fall everywhere in the frame
+  int toggles = 1;             ///< times on and off again; more until one of each kind is seen sharply
   ColorResponse response;
 };
 
@@ -62,7 +71,7 @@ LatencyCalibration summarise(const LagEstimate& estimate, const ClockFit& fit);
 /// Starts `source`, switches `lamp` `toggles` times and stops again. @param timing of the exposure that is locked
 /// @throws as measure_lag; DeviceFault (capture/device_fault.h) if the lamp does not change the picture.
 LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostClock& clock, const FrameTiming& timing,
-                                     const std::string& lamp, LatencyOptions options,
+                                     const std::string& lamp, const LatencyOptions& options,
                                      FrameFeed::KeepGoing keep_going = {});
 
 }  // namespace rakelight

@@ -63,5 +63,87 @@ TEST(Capture, TakesDarkFirstAndLastAndEachLampInItsOrder) {
             << outcome.scan.metering_rounds << "\n";
 }
 
+/// 12 lamps and two darks, exposure and gain fixed.
+Outcome sequence_of_twelve(SimulatedRigOptions world) {
+  Rig rig = simulated_rig(world);
+  rig.lamps.resize(12);
+  world.brightness = 0.6 * 8000 / world.exposure_us;
+  ScanOptions options;
+  options.meter = false;
+  return scan(world, options, &rig);
+}
+
+TEST(Capture, TwelveLampsTakeAboutTwoFramePeriodsEachAtEightMilliseconds) {
+  double worst = 0;
+  for (int i = 0; i < 20; ++i) {
+    SimulatedRigOptions world;
+    world.phase_us = 1666.0 * i;
+    world.seed = unsigned(i);
+    const Outcome outcome = sequence_of_twelve(world);
+    EXPECT_EQ(outcome.frames, 14);
+    EXPECT_EQ(outcome.mislit, 0);
+    worst = std::max(worst, outcome.scan.sensor_time_us);
+  }
+  EXPECT_LE(worst, 1'050'000);
+  RecordProperty("sensor_time_ms", std::to_string(worst / 1000));
+}
+
+TEST(Capture, TwelveLampsOnASlowBoardTakeThreeFramePeriodsEachAtThirtyMilliseconds) {
+  double worst = 0;
+  for (int i = 0; i < 20; ++i) {
+    SimulatedRigOptions world;
+    world.phase_us = 1666.0 * i;
+    world.exposure_us = 30000;
+    world.board_us = 10000;
+    const Outcome outcome = sequence_of_twelve(world);
+    EXPECT_EQ(outcome.frames, 14);
+    EXPECT_EQ(outcome.mislit, 0);
+    worst = std::max(worst, outcome.scan.sensor_time_us);
+  }
+  EXPECT_LE(worst, 1'400'000);
+  RecordProperty("sensor_time_ms", std::to_string(worst / 1000));
+}
+
+/// Whatever rig: latencies of lamps and transport from 0 to 80 ms, jitter, one frame in twenty lost.
+SimulatedRigOptions any_world(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  SimulatedRigOptions world;
+  world.seed = seed;
+  world.exposure_us = uniform(4000, 33000);
+  world.readout_us = uniform(5000, 32000);
+  world.period_us = uniform(33200, 33500);
+  world.phase_us = uniform(0, 33333);
+  world.device_offset_us = uniform(-1e9, 1e9);
+  world.device_drift = uniform(-1e-4, 1e-4);
+  world.lamp_latency_us = uniform(0, 80000);
+  world.lamp_jitter_us = uniform(0, 2000);
+  world.delivery_latency_us = uniform(0, 80000);
+  world.delivery_jitter_us = uniform(0, 30000);
+  world.drop_share = 0.05;
+  world.repeat_share = 0.02;
+  world.board_us = uniform(0, 10000);
+  world.brightness = 0.6 * 8000 / world.exposure_us;
+  return world;
+}
+
+TEST(Capture, NoFrameIsMislitWhateverTheLatencyAndTheDrops) {
+  constexpr int kScans = 600;
+  int frames = 0, mislit = 0, incomplete = 0, faults = 0;
+  for (int i = 0; i < kScans; ++i) {
+    ScanOptions options;
+    options.meter = false;
+    const Outcome outcome = scan(any_world(unsigned(i)), options);
+    frames += outcome.frames;
+    mislit += outcome.mislit;
+    incomplete += outcome.frames == 17 ? 0 : 1;
+    faults += int(outcome.scan.faults.size());
+  }
+  EXPECT_GE(frames, 10'000);
+  EXPECT_EQ(mislit, 0);
+  EXPECT_EQ(incomplete, 0);
+  EXPECT_EQ(faults, 0);
+}
+
 }  // namespace
 }  // namespace rakelight
