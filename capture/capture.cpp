@@ -93,7 +93,7 @@ class Scan {
     devices_.lights.all_off();
     set_exposure(exposure_);
     tell("measuring the latency of the lamps", 0.05);
-    find_lag();
+    find_first_lag();
     if (!options_.resume) meter();
     take_sequence();
     retake();
@@ -158,24 +158,34 @@ class Scan {
     while (feed_.next_color().frame.index < from + kSettleFrames) {}
   }
 
-  /// By the first lamp that changes the picture; where none does, the picture may be too dark or too bright to tell.
-  void find_lag() {
+  /// By the first lamp that changes the picture.
+  bool find_lag() {
     LatencyOptions options;
     options.response = state_.stack.color_response;
+    for (const RigLamp& lamp : rig_.lamps) {
+      const auto lag = measure_lag(feed_, devices_.lights, lamp.id, options);
+      if (!lag) continue;
+      sequence_.set_lag(*lag);
+      result_.lag_us = summarise(*lag, feed_.clock_fit()).lag_us;
+      return true;
+    }
+    return false;
+  }
+
+  /// Where no lamp changes the picture it may be too bright or too dark to tell.
+  void find_first_lag() {
     const Exposure start = exposure_;
     for (const double factor : {1.0, 0.25, 4.0}) {
       if (factor != 1) set_exposure({start.time_us, start.gain * factor});
-      for (const RigLamp& lamp : rig_.lamps) {
-        if (auto lag = measure_lag(feed_, devices_.lights, lamp.id, options)) {
-          sequence_.set_lag(*lag);
-          result_.lag_us = summarise(*lag, feed_.clock_fit()).lag_us;
-          return;
-        }
-      }
-      if (options_.resume) break;
+      if (find_lag()) return;
+      if (options_.resume) break;  // its exposure is known to be right
     }
     throw DeviceFault("switched every lamp on and off, but the picture never changed; check the lamps' supply and lines "
                       "('rakelight lights test'), and that the sensor sees what they light");
+  }
+
+  void find_lag_again() {
+    if (!find_lag()) throw DeviceFault("measured the lamps' latency again, but the picture no longer changes; check their supply");
   }
 
   /// One picture of each step, dark first, the lamps backwards: an error in timing then differs from the sequence's.
@@ -200,7 +210,7 @@ class Scan {
 
   /// After a reset of the device's clock the lag has to be measured anew.
   void check_epoch() {
-    if (feed_.clock_fit().epoch() != sequence_.lag().epoch) find_lag();
+    if (feed_.clock_fit().epoch() != sequence_.lag().epoch) find_lag_again();
   }
 
   /// Finds the exposure, then learns what each lamp looks like and whether it works.
@@ -223,7 +233,10 @@ class Scan {
       if (!options_.meter || !better || round == kMeteringRounds) return learn(scene, object, pictures);
       commanded = better->time_us * better->gain / (exposure_.time_us * exposure_.gain);
       before = seen;
+      const double time_us = exposure_.time_us;
       set_exposure(*better);
+      // Some devices stamp a frame's beginning, others its end: with another exposure the lag may be another.
+      if (exposure_.time_us != time_us) find_lag_again();
     }
   }
 
