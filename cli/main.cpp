@@ -117,6 +117,9 @@ int run(int argc, char** argv) {
 #ifdef RAKELIGHT_HAS_SIMULATE
   add_simulate_command(program, exit_code);
 #endif
+#ifdef RAKELIGHT_HAS_CAPTURE
+  add_doctor_command(program, exit_code);
+#endif
   add_import_command(program, exit_code);
   add_info_command(program, exit_code);
   add_verify_command(program, exit_code);
