@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "capture/auto_mask.h"
-#include "capture/device_fault.h"
 #include "capture/sequence.h"
 #include "stack/errors.h"
 
@@ -145,7 +144,7 @@ class Scan {
 
   bool keep_going() const { return !progress_ || progress_(told_); }
 
-  void set_exposure(const Exposure& exposure) {
+  void set_exposure(const ExposureSetting& exposure) {
     exposure_ = exposure;
     const ExposureLock lock = devices_.source.lock_exposure(exposure.time_us, exposure.gain);
     exposure_.time_us = lock.exposure_us.value_or(exposure.time_us);
@@ -174,18 +173,18 @@ class Scan {
 
   /// Where no lamp changes the picture it may be too bright or too dark to tell.
   void find_first_lag() {
-    const Exposure start = exposure_;
+    const ExposureSetting start = exposure_;
     for (const double factor : {1.0, 0.25, 4.0}) {
       if (factor != 1) set_exposure({start.time_us, start.gain * factor});
       if (find_lag()) return;
       if (options_.resume) break;  // its exposure is known to be right
     }
-    throw DeviceFault("switched every lamp on and off, but the picture never changed; check the lamps' supply and lines "
+    throw DeviceError("switched every lamp on and off, but the picture never changed; check the lamps' supply and lines "
                       "('rakelight lights test'), and that the sensor sees what they light");
   }
 
   void find_lag_again() {
-    if (!find_lag()) throw DeviceFault("measured the lamps' latency again, but the picture no longer changes; check their supply");
+    if (!find_lag()) throw DeviceError("measured the lamps' latency again, but the picture no longer changes; check their supply");
   }
 
   /// One picture of each step, dark first, the lamps backwards: an error in timing then differs from the sequence's.
@@ -204,7 +203,7 @@ class Scan {
       steps.erase(std::remove_if(steps.begin(), steps.end(), taken), steps.end());
     }
     if (steps.empty()) return pictures;
-    throw DeviceFault("waited for a whole frame under each lamp, but too many frames are dropped; use another USB port, "
+    throw DeviceError("waited for a whole frame under each lamp, but too many frames are dropped; use another USB port, "
                       "or fewer streams on this one");
   }
 
@@ -215,7 +214,7 @@ class Scan {
 
   /// Finds the exposure, then learns what each lamp looks like and whether it works.
   void meter() {
-    const Exposure start = exposure_;
+    const ExposureSetting start = exposure_;
     Brightness before;
     double commanded = 1;
     for (int round = 1;; ++round) {
@@ -460,7 +459,7 @@ class Scan {
   FrameFeed feed_;
   Sequence sequence_;
   ScanState state_;
-  Exposure exposure_;
+  ExposureSetting exposure_;
   bool locked_ = false;
   std::map<int, Frame> unproven_;  ///< the last frame of each slot that did not match
   ScanResult result_;
@@ -470,6 +469,9 @@ class Scan {
 
 ScanResult capture_stack(const Devices& devices, const Rig& rig, const ScanOptions& options,
                          const ScanProgressCallback& progress) {
+  if (!devices.source.describe().live) {
+    throw UsageError("a recording does not follow the lamps; read it as a stack, or import it with 'rakelight import oni'");
+  }
   const AllOff on_every_way_out(devices);
   devices.source.start();
   Scan scan(devices, rig, options, progress);
