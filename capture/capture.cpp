@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "capture/auto_mask.h"
-#include "capture/device_fault.h"
 #include "capture/sequence.h"
 #include "stack/errors.h"
 
@@ -93,7 +92,7 @@ class Scan {
     devices_.lights.all_off();
     set_exposure(exposure_);
     tell("measuring the latency of the lamps", 0.05);
-    find_lag();
+    find_first_lag();
     if (!options_.resume) meter();
     take_sequence();
     retake();
@@ -145,7 +144,7 @@ class Scan {
 
   bool keep_going() const { return !progress_ || progress_(told_); }
 
-  void set_exposure(const Exposure& exposure) {
+  void set_exposure(const ExposureSetting& exposure) {
     exposure_ = exposure;
     const ExposureLock lock = devices_.source.lock_exposure(exposure.time_us, exposure.gain);
     exposure_.time_us = lock.exposure_us.value_or(exposure.time_us);
@@ -158,24 +157,34 @@ class Scan {
     while (feed_.next_color().frame.index < from + kSettleFrames) {}
   }
 
-  /// By the first lamp that changes the picture; where none does, the picture may be too dark or too bright to tell.
-  void find_lag() {
+  /// By the first lamp that changes the picture.
+  bool find_lag() {
     LatencyOptions options;
     options.response = state_.stack.color_response;
-    const Exposure start = exposure_;
+    for (const RigLamp& lamp : rig_.lamps) {
+      const auto lag = measure_lag(feed_, devices_.lights, lamp.id, options);
+      if (!lag) continue;
+      sequence_.set_lag(*lag);
+      result_.lag_us = summarise(*lag, feed_.clock_fit()).lag_us;
+      return true;
+    }
+    return false;
+  }
+
+  /// Where no lamp changes the picture it may be too bright or too dark to tell.
+  void find_first_lag() {
+    const ExposureSetting start = exposure_;
     for (const double factor : {1.0, 0.25, 4.0}) {
       if (factor != 1) set_exposure({start.time_us, start.gain * factor});
-      for (const RigLamp& lamp : rig_.lamps) {
-        if (auto lag = measure_lag(feed_, devices_.lights, lamp.id, options)) {
-          sequence_.set_lag(*lag);
-          result_.lag_us = summarise(*lag, feed_.clock_fit()).lag_us;
-          return;
-        }
-      }
-      if (options_.resume) break;
+      if (find_lag()) return;
+      if (options_.resume) break;  // its exposure is known to be right
     }
-    throw DeviceFault("switched every lamp on and off, but the picture never changed; check the lamps' supply and lines "
+    throw DeviceError("switched every lamp on and off, but the picture never changed; check the lamps' supply and lines "
                       "('rakelight lights test'), and that the sensor sees what they light");
+  }
+
+  void find_lag_again() {
+    if (!find_lag()) throw DeviceError("measured the lamps' latency again, but the picture no longer changes; check their supply");
   }
 
   /// One picture of each step, dark first, the lamps backwards: an error in timing then differs from the sequence's.
@@ -194,18 +203,18 @@ class Scan {
       steps.erase(std::remove_if(steps.begin(), steps.end(), taken), steps.end());
     }
     if (steps.empty()) return pictures;
-    throw DeviceFault("waited for a whole frame under each lamp, but too many frames are dropped; use another USB port, "
+    throw DeviceError("waited for a whole frame under each lamp, but too many frames are dropped; use another USB port, "
                       "or fewer streams on this one");
   }
 
   /// After a reset of the device's clock the lag has to be measured anew.
   void check_epoch() {
-    if (feed_.clock_fit().epoch() != sequence_.lag().epoch) find_lag();
+    if (feed_.clock_fit().epoch() != sequence_.lag().epoch) find_lag_again();
   }
 
   /// Finds the exposure, then learns what each lamp looks like and whether it works.
   void meter() {
-    const Exposure start = exposure_;
+    const ExposureSetting start = exposure_;
     Brightness before;
     double commanded = 1;
     for (int round = 1;; ++round) {
@@ -223,7 +232,10 @@ class Scan {
       if (!options_.meter || !better || round == kMeteringRounds) return learn(scene, object, pictures);
       commanded = better->time_us * better->gain / (exposure_.time_us * exposure_.gain);
       before = seen;
+      const double time_us = exposure_.time_us;
       set_exposure(*better);
+      // Some devices stamp a frame's beginning, others its end: with another exposure the lag may be another.
+      if (exposure_.time_us != time_us) find_lag_again();
     }
   }
 
@@ -447,7 +459,7 @@ class Scan {
   FrameFeed feed_;
   Sequence sequence_;
   ScanState state_;
-  Exposure exposure_;
+  ExposureSetting exposure_;
   bool locked_ = false;
   std::map<int, Frame> unproven_;  ///< the last frame of each slot that did not match
   ScanResult result_;
@@ -457,6 +469,9 @@ class Scan {
 
 ScanResult capture_stack(const Devices& devices, const Rig& rig, const ScanOptions& options,
                          const ScanProgressCallback& progress) {
+  if (!devices.source.describe().live) {
+    throw UsageError("a recording does not follow the lamps; read it as a stack, or import it with 'rakelight import oni'");
+  }
   const AllOff on_every_way_out(devices);
   devices.source.start();
   Scan scan(devices, rig, options, progress);

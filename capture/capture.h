@@ -68,7 +68,7 @@ struct ScanResult {
 
 /// Runs the light sequence. All lamps are off and the source is stopped when this returns or throws; what had been kept by
 /// then went to options.on_frame.
-/// @throws SensorLost; DeviceFault if no lamp changes the picture; std::system_error from the lamps; Cancelled;
+/// @throws SensorLost; DeviceError if no lamp changes the picture; std::system_error from the lamps; Cancelled;
 ///         UsageError if rig and options do not fit each other or what is resumed
 ScanResult capture_stack(const Devices& devices, const Rig& rig, const ScanOptions& options,
                          const ScanProgressCallback& progress = {});

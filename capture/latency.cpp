@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture/device_fault.h"
 #include "capture/edge_time.h"
+#include "stack/errors.h"
 
 namespace rakelight {
 namespace {
@@ -167,7 +167,7 @@ LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostCl
   const std::optional<LagEstimate> estimate = measure_lag(feed, lights, lamp, options);
   source.stop();
   if (!estimate) {
-    throw DeviceFault("measured the latency of lamp '" + lamp +
+    throw DeviceError("measured the latency of lamp '" + lamp +
                       "', but switching it does not change the picture; check its wiring and that the sensor sees its light");
   }
   return summarise(*estimate, feed.clock_fit());

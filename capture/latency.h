@@ -69,7 +69,7 @@ std::optional<LagEstimate> measure_lag(FrameFeed& feed, Lights& lights, const st
 LatencyCalibration summarise(const LagEstimate& estimate, const ClockFit& fit);
 
 /// Starts `source`, switches `lamp` `toggles` times and stops again. @param timing of the exposure that is locked
-/// @throws as measure_lag; DeviceFault (capture/device_fault.h) if the lamp does not change the picture.
+/// @throws as measure_lag; DeviceError if the lamp does not change the picture.
 LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostClock& clock, const FrameTiming& timing,
                                      const std::string& lamp, const LatencyOptions& options,
                                      FrameFeed::KeepGoing keep_going = {});

@@ -44,7 +44,7 @@ Brightness measure_brightness(const CoarseScene& scene, const cv::Mat1b& object,
   return seen;
 }
 
-std::optional<Exposure> better_exposure(const Brightness& seen, const Exposure& now, const Exposure& start,
+std::optional<ExposureSetting> better_exposure(const Brightness& seen, const ExposureSetting& now, const ExposureSetting& start,
                                         const MeteringLimits& limits) {
   double factor = 1;
   if (seen.saturated > limits.max_saturated) {
@@ -56,7 +56,7 @@ std::optional<Exposure> better_exposure(const Brightness& seen, const Exposure& 
   const double time_us = std::clamp(now.time_us * factor, limits.min_time_us, limits.max_time_us);
   const double gain = std::clamp(wanted / time_us, start.gain / limits.max_gain_factor, start.gain * limits.max_gain_factor);
   if (std::abs(time_us * gain / (now.time_us * now.gain) - 1) < kLeastChange) return std::nullopt;
-  return Exposure{time_us, gain};
+  return ExposureSetting{time_us, gain};
 }
 
 }  // namespace rakelight

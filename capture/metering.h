@@ -12,7 +12,7 @@
 
 namespace rakelight {
 
-struct Exposure {
+struct ExposureSetting {
   double time_us = 8000;
   double gain = 100;
 };
@@ -36,7 +36,7 @@ Brightness measure_brightness(const CoarseScene& scene, const cv::Mat1b& object,
                               const ColorResponse& response);
 
 /// The exposure to try next; nothing if this one is right or cannot be bettered. Time is changed before gain.
-std::optional<Exposure> better_exposure(const Brightness& seen, const Exposure& now, const Exposure& start,
+std::optional<ExposureSetting> better_exposure(const Brightness& seen, const ExposureSetting& now, const ExposureSetting& start,
                                         const MeteringLimits& limits);
 
 }  // namespace rakelight

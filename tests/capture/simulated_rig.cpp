@@ -3,6 +3,7 @@
 #include "tests/capture/simulated_rig.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rakelight::test {
@@ -46,6 +47,8 @@ struct SimulatedRig::World {
         written(rig_.lamps.size(), false), start_us(double(owner.clock.now_us()) + options_.phase_us) {
     exposure_us = options.exposure_us;
     make_scene();
+    std::normal_distribution<float> normal(0, float(options.noise));
+    for (float& value : noise) value = normal(random);
   }
 
   double uniform(double to) { return std::uniform_real_distribution<double>(0, to)(random); }
@@ -141,7 +144,7 @@ struct SimulatedRig::World {
 
   cv::Mat render(int frame) {
     cv::Mat3b image(camera.size());
-    std::normal_distribution<float> noise(0, float(options.noise));
+    std::size_t noise_at = random() % noise.size();
     const double scale = options.ignores_exposure ? 1 : exposure_us * gain / (8000.0 * 100);
     for (int y = 0; y < camera.height; ++y) {
       const double opens = opens_us(frame) + options.readout_us * (y + 0.5) / camera.height;
@@ -154,7 +157,7 @@ struct SimulatedRig::World {
         cv::Vec3f value = albedo(y, x) * float(options.ambient);
         for (const auto& [k, share] : lit) value += pictures[k](y, x) * share;
         for (int c = 0; c < 3; ++c)
-          image(y, x)[c] = cv::saturate_cast<uchar>(255 * (value[c] * float(scale) + noise(random)));
+          image(y, x)[c] = cv::saturate_cast<uchar>(255 * (value[c] * float(scale) + noise[noise_at++ % noise.size()]));
       }
     }
     return std::move(image);
@@ -172,6 +175,7 @@ struct SimulatedRig::World {
   cv::Mat1w depth;
   cv::Mat3f albedo;
   std::vector<cv::Mat3f> pictures;  ///< of each lamp alone
+  std::array<float, 16381> noise{};  ///< a prime number, so that no frame repeats another's
   bool unplugged = false;
   int delivered = 0;
 };
