@@ -40,6 +40,8 @@ RollingShutter ColorStream::shutter() const {
 double ColorStream::span_us() {
   const std::lock_guard<std::mutex> lock(camera_mutex_);
   exposing_ = set_;
+  if (rig().setup().ignores_exposure)
+    exposing_.exposure_us = kReferenceExposureUs, exposing_.gain = kReferenceGain;
   return shutter().span_us();
 }
 
