@@ -44,7 +44,7 @@ LightStack recorded_stack() {
 
 class OniFile : public testing::Test {
  protected:
-  OniFile() : folder_("oni-file"), file_(folder_.path() / "scan.oni") {}
+  OniFile() : file_(folder_ / "scan.oni") {}
 
   test::TemporaryFolder folder_;
   std::filesystem::path file_;
