@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <OpenNI.h>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "capture/oni_file.h"
 #include "capture/openni_device.h"
@@ -67,31 +69,51 @@ std::vector<const Frame*> frames_with_both(const LightStack& stack) {
   return frames;
 }
 
-}  // namespace
-
-void export_oni(const LightStack& stack, const std::filesystem::path& file) {
-  const std::vector<const Frame*> frames = frames_with_both(stack);
+/// Pushes all frames, `pace` apart.
+void record(const LightStack& stack, const std::vector<const Frame*>& frames,
+            const std::filesystem::path& file, std::chrono::milliseconds pace) {
   OpenniDevice device(driver_protocol::kFeedUri);
   const driver_protocol::FeedSetup setup{feed_of(stack.color_camera), feed_of(stack.depth_camera)};
   device.set_property(driver_protocol::kSetup, &setup, sizeof setup);
   openni::Recorder recorder;
-  if (recorder.create(file.c_str()) != openni::STATUS_OK)
+  if (recorder.create(file.c_str()) != openni::STATUS_OK) {
     throw IoError("cannot write " + file.string() + "; check folder and disk");
+  }
   FedStream color(device, openni::SENSOR_COLOR, recorder), depth(device, openni::SENSOR_DEPTH, recorder);
   if (recorder.start() != openni::STATUS_OK)
     throw IoError("cannot write " + file.string() + "; check folder and disk");
-  int k = 0;
-  for (const Frame* frame : frames) {
+  const auto push = [&](const Frame& frame, int k) {
     cv::Mat1w raw;
-    frame->depth.convertTo(raw, CV_16U, stack.depth_unit_m / kUnit_m);
-    color.push(eight_bit(frame->color), frame->color_time, k);
-    depth.push(raw, frame->depth_time, k);
-    ++k;
-  }
+    frame.depth.convertTo(raw, CV_16U, stack.depth_unit_m / kUnit_m);
+    color.push(eight_bit(frame.color), frame.color_time, k);
+    depth.push(raw, frame.depth_time, k);
+    std::this_thread::sleep_for(pace);
+  };
+  push(*frames.front(), 0);  // the recorder swallows the first frame of each stream
+  for (std::size_t k = 0; k < frames.size(); ++k) push(*frames[k], static_cast<int>(k) + 1);
   recorder.stop();
   recorder.destroy();
   color.stop();
   depth.stop();
+}
+
+std::size_t recorded_pairs(const std::filesystem::path& file) {
+  try {
+    return import_oni(file, {}).frames.size();
+  } catch (const InputError&) { return 0; }
+}
+
+}  // namespace
+
+void export_oni(const LightStack& stack, const std::filesystem::path& file) {
+  const std::vector<const Frame*> frames = frames_with_both(stack);
+  // The recorder takes the newest frame of a stream when its own thread comes round, and does not say that it has. So frames
+  // are pushed ever more slowly until the file holds them all.
+  for (const int pace_ms : {5, 20, 80, 320}) {
+    record(stack, frames, file, std::chrono::milliseconds(pace_ms));
+    if (recorded_pairs(file) == frames.size()) return;
+  }
+  throw IoError("cannot write all frames to " + file.string() + "; see whether the disk is full");
 }
 
 }  // namespace rakelight

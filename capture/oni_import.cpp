@@ -32,7 +32,10 @@ class Recording {
     color_.start();
     depth_.start();
   }
+  /// Streams that are destroyed while they run crash the library's player now and then.
   ~Recording() {
+    color_.stop();
+    depth_.stop();
     color_.destroy();
     depth_.destroy();
     device_.close();
