@@ -120,6 +120,7 @@ int run(int argc, char** argv) {
   add_simulate_command(program, exit_code);
 #endif
 #ifdef RAKELIGHT_HAS_CAPTURE
+  add_export_command(program, exit_code);
   add_lights_command(program, exit_code);
   add_doctor_command(program, exit_code);
 #endif
