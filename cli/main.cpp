@@ -77,6 +77,8 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
     return report(kIo, program, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return report(kIo, program, error.what());
+  } catch (const DeviceError& error) {
+    return report(kDevice, program, error.what());
   } catch (const Cancelled& cancelled) {
     return report(kCancelled, program, cancelled.what());
   } catch (const std::system_error& error) {
@@ -119,6 +121,7 @@ int run(int argc, char** argv) {
 #endif
 #ifdef RAKELIGHT_HAS_CAPTURE
   add_calibrate_command(program, exit_code);
+  add_export_command(program, exit_code);
   add_lights_command(program, exit_code);
   add_doctor_command(program, exit_code);
 #endif
