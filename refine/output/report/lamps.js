@@ -31,7 +31,7 @@ function dot(lamp, x, y, radius = 6) {
 
 /** Angle from the optical axis as the radius: the middle is the camera's own direction, the rim is grazing light. */
 function hemisphere(lamps) {
-  const [cx, cy, radius] = [220, 142, 112];
+  const [cx, cy, radius] = [220, 152, 106];
   const rings = [30, 60, 90].flatMap((degrees) => [
     svg('circle', {class: degrees === 90 ? 'axis' : 'grid', cx, cy, r: radius * degrees / 90}),
     svg('text', {class: 'quiet', x: cx + 3, y: cy - radius * degrees / 90 - 3}, `${degrees}\u00b0`)]);
@@ -56,7 +56,7 @@ function plan(lamps) {
   const middle = (values) => (Math.min(...values) + Math.max(...values)) / 2;
   const scale = Math.min(360 / (Math.max(...xs) - Math.min(...xs) || 0.1), 190 / (Math.max(...zs) - Math.min(...zs) || 0.1));
   const at = (x, z) => [220 + (x - middle(xs)) * scale, 140 - (z - middle(zs)) * scale];
-  const bar = ticks(0, 120 / scale, 1).at(-1) || 120 / scale;
+  const bar = ticks(0, 120 / scale, 4).at(-1);
   const [camX, camY] = at(0, 0), [objX, objY] = at(data.centre_m[0], data.centre_m[2]);
   return diagram(`Plan of ${near.length} near lamps with the camera and the object; the table below has the numbers.`,
     svg('text', {x: 12, y: 18}, 'Near lamps, seen from above'),

@@ -15,11 +15,11 @@ function element(name, attributes = {}, ...children) {
   return made;
 }
 
-/** A number for people: four digits, a dash where there is none. */
+/** A number for people: three digits, a dash where there is none. */
 function short(value) {
   if (value === null || value === undefined) return '\u2013';
   if (typeof value !== 'number') return String(value);
-  return String(Number(value.toPrecision(4)));
+  return String(Number(value.toPrecision(3)));
 }
 
 /** Rows [heading, cell, ...] as a table body, the first cell of each a heading. */
@@ -51,6 +51,9 @@ const kMeasures = {
   image_noise: ['Noise of the images, of full brightness', 100, '%'],
   too_few_lit: ['Share of the surface lit in fewer than three images', 100, '%'],
   far_over_near_residual: ['Misfit with far lamps / with near lamps', 1, ''],
+  depth_noise_log: ['Noise of the sensor\u2019s depth, of the distance', 100, '%'],
+  lamp_spread: ['Spread of the lamps\u2019 directions (0 = all alike)', 1, ''],
+  sensor_weight: ['Weight of the sensor\u2019s depth', 1, ''],
   worst_image_misfit: ['Misfit of the worst image / of the typical one', 1, ''],
 };
 

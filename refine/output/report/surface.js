@@ -88,11 +88,11 @@ class SurfaceView {
     gl.drawElements(gl.TRIANGLES, patch.count, gl.UNSIGNED_INT, 0);
   }
 
-  /** The vertical view holds the object's height, the horizontal one its width: how much farther the viewer must be. */
+  /** How much of `eye` suffices for the object to fit a canvas of this shape, whose shorter side is the field of view. */
   fitted(aspect) {
     const [width, height] = this.extent;
     const span = Math.max(width, height);
-    return aspect >= 1 ? Math.max(width, height * aspect) / span : Math.max(width / aspect, height) / span;
+    return (aspect >= 1 ? Math.max(width / aspect, height) : Math.max(width, height * aspect)) / span;
   }
 }
 
