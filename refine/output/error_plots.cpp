@@ -54,7 +54,7 @@ std::string captioned(const char* name, const char* measure, double value, const
 double pixel_mm(const ErrorMaps& maps) { return 1e3 * maps.mean_depth_m / maps.camera.fx; }
 
 cv::Mat3b on_paper(cv::Mat3b picture, const cv::Mat1f& errors) {
-  picture.setTo(cv::Scalar(kPaper), cv::Mat(errors != errors));
+  picture.setTo(kPaper, cv::Mat(errors == errors) == 0);  // OpenCV finds NaN != NaN false
   return picture(object_box(errors)).clone();
 }
 

@@ -18,7 +18,7 @@ function frameItem(frame) {
       `${short(100 * frame.clipped)} % of the object is overexposed.`));
   }
   const alt = `Image ${frame.index}, ${frame.lamp === null ? 'dark' : `lit by ${frame.lamp}`}`;
-  return element('li', {}, element('img', {alt, src: frame.picture, loading: 'lazy'}), ...words);
+  return element('li', {}, element('img', {alt, src: frame.picture}), ...words);
 }
 
 function listFrames() {
