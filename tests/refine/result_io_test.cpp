@@ -161,7 +161,7 @@ TEST(ResultIo, RefusesASecondWriterAtTheSameTime) {
 }
 
 TEST(ResultIo, KeepsTheEarlierResultWhenTheDiskIsFull) {
-  const test::TinyDisk disk(96);
+  const test::TinyDisk disk(256);
   if (!disk.mounted()) GTEST_SKIP() << "needs root to mount a small tmpfs";
   write_result(test::sample_result(), disk.path() / "out");
   const std::string before = text_of(disk.path() / "out/result.json");
