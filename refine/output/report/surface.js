@@ -150,12 +150,17 @@ function connectControls(canvas, view, changed) {
   byId('reset').addEventListener('click', front);
 }
 
+/** A word in the surface's place, where it cannot be drawn. */
+function refuseSurface() {
+  byId('viewer').hidden = true;
+  byId('no-webgl').hidden = false;
+}
+
 async function showSurface() {
   const canvas = byId('canvas');
-  const refuse = () => { byId('viewer').hidden = true; byId('no-webgl').hidden = false; };
   const gl = canvas.getContext('webgl2');
-  if (!gl) return refuse();
-  canvas.addEventListener('webglcontextlost', refuse);
+  if (!gl) return refuseSurface();
+  canvas.addEventListener('webglcontextlost', refuseSurface);
   const images = {normals: new Image(), albedo: byId('albedo'), delta: byId('delta')};
   images.normals.src = data.surface.normals;
   await Promise.all(Object.values(images).map((image) => image.decode()));
@@ -172,4 +177,7 @@ async function showSurface() {
   changed();
 }
 
-showSurface();
+showSurface().catch((error) => {
+  refuseSurface();
+  console.error(error);
+});
