@@ -75,7 +75,6 @@ ScanFolder::ScanFolder(const fs::path& folder, bool resume) : target_(without_sl
   lock();
   if (begun) read_unfinished();
   for (const char* sub : {"color", "depth"}) make_folder(place_ / sub);
-  writer_ = std::thread([this] { write_frames(); });
 }
 
 ScanFolder::~ScanFolder() {
@@ -84,7 +83,7 @@ ScanFolder::~ScanFolder() {
     closing_ = true;
   }
   changed_.notify_all();
-  writer_.join();
+  if (writer_.joinable()) writer_.join();
   remove_if_empty();
   ::close(lock_fd_);
 }
@@ -135,6 +134,8 @@ void ScanFolder::record(const ScanState& state, const Frame& frame) {
       header_.unknown_keys = scan_keys(state);
     }
     queue_.push_back(frame);
+    // Not before the first frame: the guard of the lamps is forked from a program without threads.
+    if (!writer_.joinable()) writer_ = std::thread([this] { write_frames(); });
   }
   changed_.notify_all();
 }

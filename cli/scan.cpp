@@ -80,8 +80,8 @@ ScanResult scan_with_bar(const Rig& rig, const Arguments& arguments, ScanFolder&
     return !interrupted();
   };
   try {
+    const auto lights = open_lights(rig);  // first: it forks the lamps' guard, before there are threads
     const auto source = open_frame_source(rig);
-    const auto lights = open_lights(rig);
     return capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder), show);
   } catch (const Cancelled&) {
     throw Cancelled(kept(folder, arguments));
