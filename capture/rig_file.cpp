@@ -8,6 +8,8 @@
 #include "capture/rig_calibration_file.h"
 #include "capture/toml_reader.h"
 #include "stack/checked_file.h"
+#include "stack/color_response.h"
+#include "stack/errors.h"
 
 namespace rakelight {
 namespace {
@@ -132,6 +134,13 @@ void read_virtual_rig(TomlReader& table, Rig& rig) {
   table.read("delivery_jitter_us", faults.delivery_jitter_us, 0, kSecond_us);
   table.read("drop_share", faults.drop_share, 0, 1);
   table.read("unplug_at_frame", faults.unplug_at_frame, -1, INT32_MAX);
+  std::string response = to_string(faults.color_response);
+  table.read("color_response", response);
+  try {
+    faults.color_response = parse_color_response(response);
+  } catch (const UsageError& error) { table.refuse("color_response", error.what(), "correct it"); }
+  table.read("crosstalk", faults.crosstalk, 0, 1);
+  table.read("ignores_exposure", faults.ignores_exposure);
   faults.stuck_on = table.texts("stuck_on");
   faults.stuck_off = table.texts("stuck_off");
   faults.dim = table.texts("dim");

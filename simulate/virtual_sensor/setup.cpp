@@ -115,6 +115,7 @@ VirtualSensorSetup setup_of(const Json& json) {
   setup.response = parse_color_response(json.value("response", "linear"));
   setup.crosstalk = json.value("crosstalk", setup.crosstalk);
   setup.readout_us = json.value("readout_us", setup.readout_us);
+  setup.ignores_exposure = json.value("ignores_exposure", setup.ignores_exposure);
   setup.unplug_at_frame = json.value("unplug_at_frame", setup.unplug_at_frame);
   setup.lamps = lamps_of(json.value("lamps", Json::array()));
   setup.wiring = wiring_of(json, setup);

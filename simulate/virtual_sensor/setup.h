@@ -26,9 +26,10 @@ struct VirtualSensorSetup {
   std::uint64_t seed = 1;
   cv::Size color_size{640, 480}, depth_size{640, 480};
   ColorResponse response;
-  double crosstalk = 0;       ///< as ImageOptions::crosstalk
-  double readout_us = 30000;  ///< first to last row of the rolling shutter
-  int unplug_at_frame = -1;   ///< the sensor vanishes instead of delivering this colour frame
+  double crosstalk = 0;           ///< as ImageOptions::crosstalk
+  double readout_us = 30000;      ///< first to last row of the rolling shutter
+  bool ignores_exposure = false;  ///< the camera says yes to exposure and gain, and does nothing
+  int unplug_at_frame = -1;       ///< the sensor vanishes instead of delivering this colour frame
   std::vector<VirtualLamp> lamps;
   LampWiring wiring;  ///< faults of the lamps
   FrameScheduleOptions frames;
