@@ -122,6 +122,7 @@ int run(int argc, char** argv) {
 #ifdef RAKELIGHT_HAS_CAPTURE
   add_lights_command(program, exit_code);
   add_doctor_command(program, exit_code);
+  add_scan_command(program, exit_code);
 #endif
   add_import_command(program, exit_code);
   add_info_command(program, exit_code);
