@@ -319,16 +319,8 @@ class Scan {
   }
 
   void take_sequence() {
-    std::optional<std::int64_t> first_us, last_us;
-    sequence_.run(missing_steps(), 0, [&](const StepFrame& taken) {
-      if (!first_us) first_us = taken.frame.time_us;
-      last_us = taken.frame.time_us;
-      take(taken);
-    });
-    if (first_us) {
-      const ExposureWindow first = feed_.window(*first_us), last = feed_.window(*last_us);
-      result_.sensor_time_us = last.closes_us - first.opens_us;
-    }
+    const ExposureWindow span = sequence_.run(missing_steps(), 0, [this](const StepFrame& taken) { take(taken); });
+    result_.sensor_time_us = span.closes_us - span.opens_us;
   }
 
   void retake() {

@@ -102,14 +102,14 @@ RefineResult refine_with_bar(const LightStack& stack) {
   });
 }
 
-double rounded(double value, double step) { return std::round(value / step) * step; }
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
 
 json faults_json(const std::vector<LampFault>& faults) {
   json list = json::array();
   for (const LampFault& fault : faults) {
     json entry = {{"kind", to_string(fault.kind)}, {"lamp", fault.lamp}};
     if (!fault.other.empty()) entry["other"] = fault.other;
-    entry["level"] = rounded(fault.level, 0.001);
+    entry["level"] = rounded(fault.level, 1000);
     entry["message"] = fault.message;
     list.push_back(std::move(entry));
   }
@@ -121,11 +121,11 @@ json report_json(const ScanResult& scan, const Arguments& arguments) {
   return {{"stack", arguments.output.string()},
           {"lights", stack.lights.size()},
           {"frames", stack.frames.size()},
-          {"sensor_time_ms", rounded(scan.sensor_time_us / 1000, 0.1)},
-          {"lag_ms", rounded(scan.lag_us / 1000, 0.01)},
+          {"sensor_time_ms", rounded(scan.sensor_time_us / 1000, 10)},
+          {"lag_ms", rounded(scan.lag_us / 1000, 100)},
           {"exposure_us", stack.exposure_us.value_or(0)},
           {"gain", stack.gain.value_or(0)},
-          {"saturated_share", rounded(scan.saturated, 1e-5)},
+          {"saturated_share", rounded(scan.saturated, 1e5)},
           {"retaken", scan.retaken},
           {"dropped", scan.dropped},
           {"faults", faults_json(scan.faults)},
@@ -191,8 +191,9 @@ void add_scan_command(CLI::App& program, int& exit_code) {
   command->add_flag("--resume", arguments->resume, "Complete an unfinished scan, if there is one");
   command->add_option("--repeats", arguments->repeats, "Images a lamp, instead of what the rig file says")
       ->check(CLI::Range(1, 64));
-  command->add_flag("--rgb,!--no-rgb", arguments->rgb_shot,
-                    "One image under the red, green and blue lamps at once, or none");
+  command->add_flag_function(
+      "--rgb,!--no-rgb", [arguments](std::int64_t count) { arguments->rgb_shot = count > 0; },
+      "One image under the red, green and blue lamps at once, or none");
   command->add_option("--depth-frames", arguments->depth_frames, "Depth frames kept an image; default: 2")
       ->check(CLI::Range(1, 8));
   command->add_flag("--no-metering", arguments->no_metering, "Take the rig file's exposure and gain as they are");
