@@ -65,7 +65,8 @@ ExposureWindow Sequence::run(const std::vector<std::size_t>& steps, int images, 
     const int wanted = images > 0 ? images : plan_.steps[step].images;
     const LampLag lag = lag_bounds();
     // Half a margin, so that a frame at the limit, whose time is known to within rounding only, still passes the gate.
-    const double lit_us = static_cast<double>(gate_.newest().after_us) + lag.latest_us + timing_.margin_us / 2;
+    const double lit_us =
+        static_cast<double>(gate_.newest().after_us) + lag.latest_us + timing_.margin_us / 2;
     const ExposureWindow window = feed_.next_window(lit_us);
     if (!opens_us) opens_us = window.opens_us;
     closes_us = window.closes_us + (wanted - 1) * feed_.timing().period_us;

@@ -83,15 +83,16 @@ ScanResult scan_with_bar(const Rig& rig, const Arguments& arguments, ScanFolder&
     const auto lights = open_lights(rig);  // first: it forks the lamps' guard, before there are threads
     const auto source = open_frame_source(rig);
     return capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder), show);
-  } catch (const Cancelled&) {
-    throw Cancelled(kept(folder, arguments));
-  } catch (const SensorLost& lost) { throw DeviceError(std::string(lost.what()) + "; " + kept(folder, arguments)); }
+  } catch (const Cancelled&) { throw Cancelled(kept(folder, arguments)); } catch (const SensorLost& lost) {
+    throw DeviceError(std::string(lost.what()) + "; " + kept(folder, arguments));
+  }
 }
 
 void put_mask(LightStack& stack, const std::string& mask) {
   if (mask.empty()) return;
   stack.mask = mask == "auto" ? auto_mask(stack) : read_mask(mask);
-  if (stack.mask.empty()) spdlog::warn("scan: no object stands out in depth and light, so the stack has no mask");
+  if (stack.mask.empty())
+    spdlog::warn("scan: no object stands out in depth and light, so the stack has no mask");
 }
 
 RefineResult refine_with_bar(const LightStack& stack) {
@@ -134,13 +135,13 @@ json report_json(const ScanResult& scan, const Arguments& arguments) {
 
 void print_report(const ScanResult& scan, const Arguments& arguments) {
   const LightStack& stack = scan.stack;
-  std::printf("%s: %zu lights, %zu frames, colour %dx%d, depth %dx%d\n", arguments.output.c_str(), stack.lights.size(),
-              stack.frames.size(), stack.color_camera.width, stack.color_camera.height, stack.depth_camera.width,
-              stack.depth_camera.height);
+  std::printf("%s: %zu lights, %zu frames, colour %dx%d, depth %dx%d\n", arguments.output.c_str(),
+              stack.lights.size(), stack.frames.size(), stack.color_camera.width, stack.color_camera.height,
+              stack.depth_camera.width, stack.depth_camera.height);
   std::printf("  sequence  %.0f ms of sensor time, %d images taken again, %d frames dropped\n",
               scan.sensor_time_us / 1000, scan.retaken, scan.dropped);
-  std::printf("  exposure  %.1f ms, gain %g: %.2f %% of the object saturated\n", stack.exposure_us.value_or(0) / 1000,
-              stack.gain.value_or(0), scan.saturated * 100);
+  std::printf("  exposure  %.1f ms, gain %g: %.2f %% of the object saturated\n",
+              stack.exposure_us.value_or(0) / 1000, stack.gain.value_or(0), scan.saturated * 100);
   std::fflush(stdout);
 }
 
@@ -179,10 +180,13 @@ void add_scan_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand("scan", "Run the light sequence on a sensor and write a stack");
   command->footer(kFooter);
-  command->add_option("-o,--output", arguments->output, "Stack folder to write")->required()->type_name("STACK");
+  command->add_option("-o,--output", arguments->output, "Stack folder to write")
+      ->required()
+      ->type_name("STACK");
   command->add_option("--rig", arguments->rig, "What stands on the table; default: the virtual rig")
       ->type_name("RIG.toml");
-  command->add_option("--refine", arguments->refined, "Refine, too, and write the result here")->type_name("OUT");
+  command->add_option("--refine", arguments->refined, "Refine, too, and write the result here")
+      ->type_name("OUT");
   command
       ->add_option("--mask", arguments->mask,
                    "Mask image (255 = object), or auto: what is lit and stands in the middle by depth.\n"
@@ -196,7 +200,8 @@ void add_scan_command(CLI::App& program, int& exit_code) {
       "One image under the red, green and blue lamps at once, or none");
   command->add_option("--depth-frames", arguments->depth_frames, "Depth frames kept an image; default: 2")
       ->check(CLI::Range(1, 8));
-  command->add_flag("--no-metering", arguments->no_metering, "Take the rig file's exposure and gain as they are");
+  command->add_flag("--no-metering", arguments->no_metering,
+                    "Take the rig file's exposure and gain as they are");
   command->add_flag("--json", arguments->json, "Print one JSON object on stdout and nothing else there");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
