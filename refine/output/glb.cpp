@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -43,8 +42,8 @@ class ModelBuilder {
     view.byteOffset = data.size();
     view.byteLength = values.size() * sizeof(T);
     view.target = target;
-    data.resize(data.size() + view.byteLength);
-    std::memcpy(data.data() + view.byteOffset, values.data(), view.byteLength);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+    data.insert(data.end(), bytes, bytes + view.byteLength);
     tinygltf::Accessor accessor;
     accessor.bufferView = static_cast<int>(model_.bufferViews.size());
     accessor.componentType = component;
