@@ -59,9 +59,10 @@ class CholeskyDepthSolver final : public DepthSolver {
 
   bool solve(const DepthSystem& system, Eigen::VectorXd& x) override {
     assemble(system);
-    const bool solved = system.curvature.empty()
-                            ? cholesky_.factorize(matrix_.lower())
-                            : cholesky_.factorize(matrix_.lower() + curvature_lower_triangle(grid_, system.curvature));
+    const bool solved =
+        system.curvature.empty()
+            ? cholesky_.factorize(matrix_.lower())
+            : cholesky_.factorize(matrix_.lower() + curvature_lower_triangle(grid_, system.curvature));
     return solved && solve_again(system.rhs, x);
   }
 

@@ -15,7 +15,8 @@
 namespace rakelight {
 
 struct CurvatureWeights {
-  Eigen::VectorXd across, down;  ///< [pixel]; 0 where a neighbour is outside the mask. Both empty: no such term
+  Eigen::VectorXd across,
+      down;  ///< [pixel]; 0 where a neighbour is outside the mask. Both empty: no such term
 
   bool empty() const { return across.size() == 0; }
 };
@@ -24,7 +25,8 @@ struct CurvatureWeights {
 double curvature_energy(const PixelGrid& grid, const CurvatureWeights& weights, const Eigen::VectorXd& x);
 
 /// C x
-Eigen::VectorXd curvature_product(const PixelGrid& grid, const CurvatureWeights& weights, const Eigen::VectorXd& x);
+Eigen::VectorXd curvature_product(const PixelGrid& grid, const CurvatureWeights& weights,
+                                  const Eigen::VectorXd& x);
 
 /// Lower triangle of C.
 Eigen::SparseMatrix<double> curvature_lower_triangle(const PixelGrid& grid, const CurvatureWeights& weights);

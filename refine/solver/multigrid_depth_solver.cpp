@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::VectorXf;
 
-constexpr int kMostSteps = 200;  // 5 to 20 without second differences; what needs more is left to the exact solver
+constexpr int kMostSteps =
+    200;  // 5 to 20 without second differences; what needs more is left to the exact solver
 
 class MultigridDepthSolver final : public DepthSolver {
  public:
@@ -230,10 +231,10 @@ class MultigridDepthSolver final : public DepthSolver {
   std::vector<unsigned char> inside_;  ///< [place] 1 in the mask
   bool single_cells_;                  ///< a cell is a pixel: lumped is exact
   Multigrid multigrid_;
-  bool set_up_ = false;       ///< the last system has a preconditioner
-  StencilGrid stencil_;       ///< with second differences: the system without them
+  bool set_up_ = false;  ///< the last system has a preconditioner
+  StencilGrid stencil_;  ///< with second differences: the system without them
   PlacedCurvature curvature_;
-  VectorXf across_, down_;    ///< weighted second differences of a product's argument
+  VectorXf across_, down_;  ///< weighted second differences of a product's argument
   std::unique_ptr<DepthSolver> exact_;
   std::unique_ptr<DepthSystem> last_;
   bool exact_has_last_ = false;

@@ -28,7 +28,8 @@ EdgeWeights color_edge_weights(const PixelGrid& grid, const Observations& image,
 class AlbedoSmoother {
  public:
   /// @param grid, image must outlive this
-  AlbedoSmoother(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options, Solver solver);
+  AlbedoSmoother(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options,
+                 Solver solver);
 
   /// Albedo (3 x pixels) under the state's normals and lamps. @return false when the system is singular.
   bool estimate(const SurfaceState& state, Eigen::Matrix3Xf& albedo);
