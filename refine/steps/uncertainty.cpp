@@ -142,21 +142,21 @@ Uncertainty estimate_uncertainty(const DepthProblem& depth, int scale, const Obs
   constexpr auto kGaussNewton = Linearization::gauss_newton;
   Random random(1);
   const SensorDraws sensor(depth, scale, state.zeta);
-  const Eigen::VectorXd rhs = depth_system(depth, state.zeta, kGaussNewton).rhs;
+  const DepthSystem system = depth_system(depth, state.zeta, kGaussNewton);
   std::vector<PhotometricTensor> tensors = depth.tensors;
   DepthPrior prior = depth.prior;
   Eigen::VectorXd zeta_square = Eigen::VectorXd::Zero(depth.grid.size()), normal_square = zeta_square;
   Eigen::VectorXd change = zeta_square;
+  if (!solver.solve(system, change)) return {};
 
   for (int k = 0; k < draws; ++k) {
     prior.cell_target = depth.prior.cell_target + sensor.change_of_target(random);
     const Eigen::Matrix3Xf h = h_of_scaled_residuals(images, state, factors_of_images(images.images, random));
     for (size_t p = 0; p < tensors.size(); ++p)
       tensors[p].h = depth.tensors[p].h + h.col(static_cast<Eigen::Index>(p));
-    DepthSystem drawn = depth_system({depth.grid, depth.corners, tensors, depth.corner_weight, prior},
-                                     state.zeta, kGaussNewton);
-    drawn.rhs -= rhs;
-    if (!solver.solve(drawn, change)) return {};
+    const DepthProblem drawn{depth.grid, depth.corners, tensors, depth.corner_weight, prior};
+    const Eigen::VectorXd rhs = depth_system(drawn, state.zeta, kGaussNewton).rhs - system.rhs;
+    if (!solver.solve_again(rhs, change)) return {};
     zeta_square += change.cwiseAbs2() / draws;
     const Eigen::Matrix3Xf moved = surface_normals(depth.grid, depth.corners, state.zeta + change);
     normal_square += (moved - state.normals).colwise().squaredNorm().transpose().cast<double>() / draws;

@@ -12,6 +12,7 @@
 
 #include "refine/solver/depth_solver.h"
 #include "refine/solver/multigrid.h"
+#include "refine/steps/curvature_prior.h"
 #include "refine/steps/super_resolution.h"
 
 namespace rakelight {
@@ -71,6 +72,31 @@ TEST(MultigridDepthSolver, AgreesWithTheExactSolver) {
       EXPECT_LT(relative_difference(fast, exact), 1e-3) << width << "x" << height << ", scale " << scale;
     }
   }
+}
+
+TEST(MultigridDepthSolver, AgreesWithTheExactSolverUnderSecondDifferences) {
+  for (const int scale : {1, 2}) {
+    RoughSystem rough(96, 61, scale, 30);
+    rough.system.curvature = reachable_differences(rough.grid, {}, {});
+    rough.system.curvature.across *= 20;
+    Eigen::VectorXd fast, exact;
+    ASSERT_TRUE(make_multigrid_depth_solver(rough.grid, rough.cells)->solve(rough.system, fast));
+    ASSERT_TRUE(make_cholesky_depth_solver(rough.grid, rough.cells)->solve(rough.system, exact));
+    EXPECT_LT(relative_difference(fast, exact), 1e-3) << "scale " << scale;
+  }
+}
+
+TEST(MultigridDepthSolver, SolvesTheLastSystemForAnotherRightHandSide) {
+  RoughSystem rough(37, 80, 1, 30);
+  const auto solver = make_multigrid_depth_solver(rough.grid, rough.cells);
+  Eigen::VectorXd first, again, exact;
+  ASSERT_TRUE(solver->solve(rough.system, first));
+  const Eigen::VectorXd other = rough.system.rhs.reverse();
+  ASSERT_TRUE(solver->solve_again(other, again));
+  rough.system.rhs = other;
+  ASSERT_TRUE(make_cholesky_depth_solver(rough.grid, rough.cells)->solve(rough.system, exact));
+  EXPECT_LT(relative_difference(again, exact), 1e-3);
+  EXPECT_GT(relative_difference(again, first), 0.1);
 }
 
 TEST(MultigridDepthSolver, GivesTheSameBytesForAnyNumberOfThreads) {
