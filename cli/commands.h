@@ -16,5 +16,6 @@ void add_info_command(CLI::App& program, int& exit_code);
 void add_verify_command(CLI::App& program, int& exit_code);
 void add_evaluate_command(CLI::App& program, int& exit_code);
 void add_table_command(CLI::App& program, int& exit_code);
+void add_view_command(CLI::App& program, int& exit_code);
 
 }  // namespace rakelight::cli
