@@ -140,8 +140,8 @@ Scene scene_of(const LightStack& stack, const GroundTruth* truth) {
 Scene open_scene(const SceneSource& source) {
   Scene scene;
   scene.title = source.folder.string();
-  refuse_what_is_neither(source.folder);
   if (!is_result(source.folder)) {
+    refuse_what_is_neither(source.folder);
     if (!source.stack.empty())
       throw UsageError("--stack goes with a result, and " + scene.title + " is none");
     add_stack(scene, source.folder);
