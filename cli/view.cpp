@@ -106,8 +106,10 @@ ViewPoint view_of(const Arguments& arguments) {
 
 void run(const Arguments& arguments) {
   const cv::Size size = size_of(arguments);
-  const Scene scene = open_scene(arguments.source);
+  Scene scene = open_scene(arguments.source);
   const Look look = look_of(arguments, default_look(scene));
+  if (arguments.screenshot.empty())
+    return run_viewer(std::move(scene), look, view_of(arguments), {size, !arguments.light.has_value()});
   const PictureOptions picture{arguments.screenshot, size, arguments.turntable.value_or(0),
                                !arguments.no_legend};
   const PictureReport report = save_pictures(scene, look, view_of(arguments), picture);

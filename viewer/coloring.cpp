@@ -140,8 +140,7 @@ std::optional<ColorRange> range_of(const Scene& scene, Coloring coloring) {
 }
 
 std::vector<cv::Vec3b> colors_of(const Scene& scene, const Layer& layer, const Surface& surface,
-                                 Coloring coloring, int image) {
-  const auto range = range_of(scene, coloring);
+                                 Coloring coloring, int image, const std::optional<ColorRange>& range) {
   if (range) return mapped(values_of(scene, layer, coloring), surface, *range);
   const cv::Size own = layer.depth.size();
   switch (coloring) {

@@ -25,8 +25,9 @@ cv::Mat1f values_of(const Scene& scene, const Layer& layer, Coloring coloring);
 /// The scale bar of a colouring: one for all layers, so that they compare; empty if it is not of numbers.
 std::optional<ColorRange> range_of(const Scene& scene, Coloring coloring);
 
-/// sRGB, R G B, as Surface::positions. @param image index in Scene::frames, for Coloring::image
+/// sRGB, R G B, as Surface::positions. @param image index in Scene::frames, for Coloring::image  @param range that of
+/// range_of()
 std::vector<cv::Vec3b> colors_of(const Scene& scene, const Layer& layer, const Surface& surface,
-                                 Coloring coloring, int image);
+                                 Coloring coloring, int image, const std::optional<ColorRange>& range);
 
 }  // namespace rakelight

@@ -39,7 +39,7 @@ PictureReport save_pictures(const Scene& scene, const Look& look, const ViewPoin
   const int pictures = std::max(1, options.turntable);
   for (int i = 0; i < pictures; ++i) {
     renderer.draw(look, camera, options.size);
-    if (options.legend) legend.draw(scene, look, options.size);
+    if (options.legend) legend.draw(surfaces.range(look.coloring), look, options.size);
     report.files.push_back(options.turntable > 0 ? numbered(options.file, i) : options.file);
     write_png(report.files.back(), framebuffer.read());
     camera.azimuth += kTurn / pictures;

@@ -13,6 +13,12 @@ const Surface& Surfaces::of(LayerKind kind) {
   return surfaces_.emplace(kind, surface_of(*scene_.find(kind), subject)).first->second;
 }
 
+const std::optional<ColorRange>& Surfaces::range(Coloring coloring) {
+  const auto found = ranges_.find(coloring);
+  if (found != ranges_.end()) return found->second;
+  return ranges_.emplace(coloring, range_of(scene_, coloring)).first->second;
+}
+
 Box Surfaces::bounds() {
   const bool refined = scene_.find(LayerKind::refined) != nullptr;
   return of(refined ? LayerKind::refined : scene_.layers.front().kind).bounds;

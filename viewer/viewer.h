@@ -5,7 +5,7 @@
 //
 //     Scene scene = open_scene({folder, stack});           // viewer/open_scene.h
 //     save_pictures(scene, look, view, {"surface.png"});   // no display needed
-//     run_viewer(source, look, view);                      // the window
+//     run_viewer(scene, look, view, {});                   // the window; live: viewer/live_view.h
 #pragma once
 
 #include <filesystem>
@@ -42,8 +42,13 @@ struct PictureReport {
 PictureReport save_pictures(const Scene& scene, const Look& look, const ViewPoint& view,
                             const PictureOptions& options);
 
-/// Opens the window and returns when it is closed. @throws as open_scene; std::system_error without display or OpenGL
-void run_viewer(const SceneSource& source, const Look& look, const ViewPoint& view, const cv::Size& size);
+struct WindowOptions {
+  cv::Size size{1280, 960};  ///< at a scale of 1
+  bool light_follows_mouse = true;
+};
+
+/// Opens the window and returns when it is closed. @throws std::system_error without a display or OpenGL 3.3, InputError
+void run_viewer(Scene scene, const Look& look, const ViewPoint& view, const WindowOptions& options);
 
 /// @throws UsageError if the look asks for a layer or colouring the scene does not have
 void check_look(const Scene& scene, const Look& look);

@@ -70,6 +70,12 @@ cv::Mat3b Framebuffer::read() const {
   return picture;
 }
 
+void clear_window() {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
 cv::Mat3b read_pixels(const cv::Size& size) {
   cv::Mat3b upside_down(size), picture;
   glPixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -24,6 +24,9 @@ class Framebuffer {
   GlObject color_, depth_, drawn_, resolved_color_, resolved_;
 };
 
+/// Makes the window the target of drawing, all black.
+void clear_window();
+
 /// The pixels of the framebuffer that is bound for reading, R G B, top row first.
 cv::Mat3b read_pixels(const cv::Size& size);
 

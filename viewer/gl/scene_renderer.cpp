@@ -59,7 +59,8 @@ const SurfaceBuffers& SceneRenderer::painted(LayerKind layer, const Look& look) 
   if (found == uploaded_.end())
     found = uploaded_.emplace(layer, Uploaded{SurfaceBuffers(surface), paint}).first;
   const Scene& scene = surfaces_.scene();
-  found->second.buffers.set_colors(colors_of(scene, *scene.find(layer), surface, paint.first, paint.second));
+  found->second.buffers.set_colors(
+      colors_of(scene, *scene.find(layer), surface, paint.first, paint.second, surfaces_.range(paint.first)));
   found->second.paint = paint;
   return found->second.buffers;
 }
