@@ -22,7 +22,8 @@ std::array<float, 3> light_direction(const LightAngles& light) {
 
 LightAngles light_at(double x, double y) {
   const double radius = std::min(1.0, std::hypot(x, y));
-  return {std::atan2(y, x) * 180 / kPi, std::max(kLowestDeg, std::acos(radius) * 180 / kPi)};
+  // Steeper than acos(radius): most of the window then gives a raking light.
+  return {std::atan2(y, x) * 180 / kPi, std::max(kLowestDeg, 90 * std::pow(1 - radius, 1.5))};
 }
 
 }  // namespace rakelight

@@ -10,7 +10,7 @@
 namespace rakelight {
 namespace {
 
-constexpr float kWidth = 13;  ///< of the panel, in letter heights
+constexpr float kWidth = 15.5f;  ///< of the panel, in letter heights
 
 void choose_layer(ViewState& state, const Scene& scene) {
   for (const Layer& layer : scene.layers) {

@@ -59,6 +59,7 @@ struct ViewerWindow::Impl {
   ViewState state;
   MouseControl mouse{[this](const cv::Point2d& at) { click(at); }};
   Look last_good;
+  cv::Point2d cursor;  ///< where the last event said it was; asked for now, it might have moved on
   int frames_to_draw = kSettlingFrames;
 
   cv::Size2d units() const {
@@ -71,12 +72,6 @@ struct ViewerWindow::Impl {
     glfwGetFramebufferSize(window.get(), &size.width, &size.height);
     return size;
   }
-  cv::Point2d cursor() const {
-    cv::Point2d at;
-    glfwGetCursorPos(window.get(), &at.x, &at.y);
-    return at;
-  }
-
   void listen();
   void click(const cv::Point2d& at);
   void open(const std::filesystem::path& folder);
@@ -99,20 +94,21 @@ void ViewerWindow::Impl::listen() {
   static const auto owner = self;
   glfwSetMouseButtonCallback(glfw, [](GLFWwindow* w, int button, int action, int modifiers) {
     Impl& impl = *owner(w);
-    if (action == GLFW_RELEASE) return impl.mouse.release(impl.cursor());
+    if (action == GLFW_RELEASE) return impl.mouse.release(impl.cursor);
     if (impl.interface->wants_mouse()) return;
     const MouseButton which = button == GLFW_MOUSE_BUTTON_LEFT    ? MouseButton::left
                               : button == GLFW_MOUSE_BUTTON_RIGHT ? MouseButton::right
                                                                   : MouseButton::middle;
-    impl.mouse.press(impl.state, which, (modifiers & GLFW_MOD_SHIFT) != 0, impl.cursor(), impl.units());
+    impl.mouse.press(impl.state, which, (modifiers & GLFW_MOD_SHIFT) != 0, impl.cursor, impl.units());
   });
   glfwSetCursorPosCallback(glfw, [](GLFWwindow* w, double x, double y) {
     Impl& impl = *owner(w);
-    if (!impl.interface->wants_mouse()) impl.mouse.move(impl.state, {x, y}, impl.units());
+    impl.cursor = {x, y};
+    if (!impl.interface->wants_mouse()) impl.mouse.move(impl.state, impl.cursor, impl.units());
   });
   glfwSetScrollCallback(glfw, [](GLFWwindow* w, double, double notches) {
     Impl& impl = *owner(w);
-    if (!impl.interface->wants_mouse()) impl.mouse.scroll(impl.state, notches, impl.cursor(), impl.units());
+    if (!impl.interface->wants_mouse()) impl.mouse.scroll(impl.state, notches, impl.cursor, impl.units());
   });
   glfwSetKeyCallback(glfw, [](GLFWwindow* w, int key, int scancode, int action, int) {
     Impl& impl = *owner(w);
