@@ -22,6 +22,15 @@ std::filesystem::path numbered(const std::filesystem::path& file, int number) {
   return result.replace_filename(file.stem().string() + digits + file.extension().string());
 }
 
+/// Whole or not at all; a picture that is there is replaced.
+void write_picture(const std::filesystem::path& file, const cv::Mat3b& picture) {
+  std::filesystem::path partial = file;
+  partial.replace_filename("." + file.filename().string() + ".partial");
+  std::filesystem::remove(partial);  // left by a crash
+  write_png(partial, picture);
+  std::filesystem::rename(partial, file);
+}
+
 }  // namespace
 
 PictureReport save_pictures(const Scene& scene, const Look& look, const ViewPoint& view,
@@ -41,7 +50,7 @@ PictureReport save_pictures(const Scene& scene, const Look& look, const ViewPoin
     renderer.draw(look, camera, options.size);
     if (options.legend) legend.draw(surfaces.range(look.coloring), look, options.size);
     report.files.push_back(options.turntable > 0 ? numbered(options.file, i) : options.file);
-    write_png(report.files.back(), framebuffer.read());
+    write_picture(report.files.back(), framebuffer.read());
     camera.azimuth += kTurn / pictures;
   }
   return report;
