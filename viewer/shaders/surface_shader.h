@@ -33,13 +33,15 @@ out vec4 result;
 vec3 linear(vec3 srgb) { return pow(srgb, vec3(2.2)); }
 vec3 encoded(vec3 radiance) { return pow(clamp(radiance, 0.0, 1.0), vec3(1.0 / 2.2)); }
 
-// A dark studio: a floor, a horizon, and one bright window around the light.
+// A studio: a bright half on the light's side, a dark one opposite, a soft edge between them that a flat surface seen
+// from the front mirrors in grey, and a window around the light.
 vec3 studio(vec3 direction) {
-  float up = direction.y;
-  vec3 room = mix(vec3(0.03, 0.03, 0.035), vec3(0.16, 0.18, 0.22), smoothstep(-0.25, 0.6, up));
-  float window = smoothstep(0.80, 0.93, dot(direction, light));
-  float strip = 0.35 * smoothstep(0.90, 0.97, dot(direction, normalize(vec3(-light.x, light.y, light.z + 0.6))));
-  return room + vec3(1.0, 0.98, 0.94) * (1.1 * window + strip);
+  vec2 side = light.xy / max(length(light.xy), 1e-4);
+  float towards = dot(direction.xy, side);
+  vec3 bright = mix(vec3(0.75, 0.80, 0.88), vec3(0.22, 0.26, 0.34), smoothstep(0.15, 1.0, towards));
+  vec3 dark = mix(vec3(0.02, 0.02, 0.025), vec3(0.16, 0.14, 0.12), smoothstep(0.2, 1.0, -towards));
+  float window = smoothstep(0.82, 0.95, dot(direction, light));
+  return mix(dark, bright, smoothstep(-0.35, 0.35, towards)) + vec3(0.9, 0.88, 0.84) * window;
 }
 
 vec3 shaded(vec3 n, vec3 to_eye) {
@@ -52,7 +54,7 @@ vec3 shaded(vec3 n, vec3 to_eye) {
     return albedo * (0.02 + 0.98 * lit + 0.16 * fill) + vec3(sheen * lit);
   }
   float edge = pow(1.0 - max(0.0, dot(n, to_eye)), 5.0);
-  return studio(reflect(-to_eye, n)) * mix(albedo + 0.25, vec3(1.0), edge);
+  return studio(reflect(-to_eye, n)) * mix(min(vec3(1.0), albedo + 0.25), vec3(1.0), edge);
 }
 
 void main() {

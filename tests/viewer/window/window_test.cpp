@@ -37,7 +37,11 @@ class Window : public testing::Test {
   }
   void TearDown() override { std::filesystem::current_path(std::filesystem::temp_directory_path()); }
 
-  cv::Mat3b look() const { return screen_->look_when_still()(kDrawing).clone(); }
+  /// The drawing, without the mouse's arrow on it.
+  cv::Mat3b look() const {
+    screen_->move_to({kWidth - 5, kHeight - 5});
+    return screen_->look_when_still()(kDrawing).clone();
+  }
   static double difference(const cv::Mat3b& a, const cv::Mat3b& b) {
     return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(3 * a.total());
   }
