@@ -106,6 +106,9 @@ ViewPoint view_of(const Arguments& arguments) {
 
 void run(const Arguments& arguments) {
   const cv::Size size = size_of(arguments);
+  if (!arguments.screenshot.empty() && arguments.screenshot.extension() != ".png")
+    throw UsageError("--screenshot writes PNG, so name a file that ends in .png, not '" +
+                     arguments.screenshot.string() + "'");
   Scene scene = open_scene(arguments.source);
   const Look look = look_of(arguments, default_look(scene));
   if (arguments.screenshot.empty())

@@ -85,6 +85,7 @@ TEST_F(View, RefusesArgumentsThatMeanNothing) {
   expect_one_line(view({scan_, "--screenshot", picture, "--color", "image:x"}), 2, "image:NUMBER");
   expect_one_line(view({scan_, "--screenshot", picture, "--color", "image:99"}), 2, "image 99");
   expect_one_line(view({scan_, "--screenshot", picture, "--layer", "refined"}), 2, "no layer refined");
+  expect_one_line(view({scan_, "--screenshot", folder_ / "p.jpg"}), 2, ".png");
   expect_one_line(view({scan_, "--turntable", "4"}), 2, "--screenshot");
 }
 
