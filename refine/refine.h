@@ -85,7 +85,7 @@ struct Progress {
   std::string stage;        ///< e.g. "depth step"
   double fraction_done = 0; ///< of the whole, 0 to 1
   int iteration = 0;        ///< outer iterations done
-  std::function<SurfaceSoFar()> surface;  ///< makes it, inside the callback only; empty before the first iteration
+  std::function<SurfaceSoFar()> surface = {};  ///< makes it, inside the callback only; empty before the first iteration
 };
 using ProgressCallback = std::function<bool(const Progress&)>;
 

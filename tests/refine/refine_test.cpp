@@ -183,7 +183,7 @@ TEST(RefineDepth, ShowsTheSurfaceOnItsWayToTheResult) {
   });
   ASSERT_EQ(surfaces.size(), result.iterations.size());
   const auto distance = [&](const SurfaceSoFar& surface) {
-    cv::Mat1f difference = cv::abs(surface.depth - result.depth);
+    cv::Mat1f difference = cv::Mat(cv::abs(surface.depth - result.depth));
     cv::patchNaNs(difference, 0);
     return cv::norm(difference, cv::NORM_INF);
   };
