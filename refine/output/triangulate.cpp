@@ -15,13 +15,13 @@ constexpr double kJumpSlope = 10.0;
 /// Adds the triangles between pixels of the depth grid.
 class Triangulation {
  public:
-  Triangulation(const Camera& camera, const cv::Mat1f& depth, const cv::Mat1i& vertex_index)
-      : depth_(depth), focal_px_(std::min(camera.fx, camera.fy)), index_(vertex_index) {}
+  Triangulation(const Camera& camera, const cv::Mat1f& depth, const cv::Mat1i& vertex_index, int stride)
+      : depth_(depth), stride_(stride), focal_px_(std::min(camera.fx, camera.fy)), index_(vertex_index) {}
 
   /// The square whose first corner is (x, y): two triangles, split along the diagonal with the smaller depth
   /// difference, or the one triangle that three corners allow.
   void add_square(int x, int y) {
-    const cv::Point a(x, y), b(x + 1, y), c(x, y + 1), d(x + 1, y + 1);
+    const cv::Point a(x, y), b(x + stride_, y), c(x, y + stride_), d(x + stride_, y + stride_);
     const bool along_ad =
         missing(b) || missing(c) || (!missing(a) && !missing(d) && step(a, d) <= step(b, c));
     if (along_ad) {
@@ -51,6 +51,7 @@ class Triangulation {
   }
 
   const cv::Mat1f& depth_;
+  int stride_;
   double focal_px_;
   const cv::Mat1i& index_;
   std::vector<std::array<int, 3>> triangles_;
@@ -59,10 +60,10 @@ class Triangulation {
 }  // namespace
 
 std::vector<std::array<int, 3>> triangulate(const Camera& camera, const cv::Mat1f& depth,
-                                            const cv::Mat1i& vertex_index) {
-  Triangulation triangulation(camera, depth, vertex_index);
-  for (int y = 0; y + 1 < depth.rows; ++y) {
-    for (int x = 0; x + 1 < depth.cols; ++x) triangulation.add_square(x, y);
+                                            const cv::Mat1i& vertex_index, int stride) {
+  Triangulation triangulation(camera, depth, vertex_index, stride);
+  for (int y = 0; y + stride < depth.rows; y += stride) {
+    for (int x = 0; x + stride < depth.cols; x += stride) triangulation.add_square(x, y);
   }
   return triangulation.take();
 }

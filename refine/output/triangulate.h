@@ -14,8 +14,9 @@ namespace rakelight {
 
 /// Joins neighbouring pixels unless a depth jump lies between them; counter-clockwise seen from the camera.
 /// @param depth metres, on the camera's grid
+/// @param stride pixels between those that are joined: only every stride-th row and column counts
 /// @param vertex_index the number of each pixel's vertex, -1 where there is none; triangles name vertices by it
 std::vector<std::array<int, 3>> triangulate(const Camera& camera, const cv::Mat1f& depth,
-                                            const cv::Mat1i& vertex_index);
+                                            const cv::Mat1i& vertex_index, int stride = 1);
 
 }  // namespace rakelight

@@ -66,8 +66,6 @@ class CholeskyDepthSolver final : public DepthSolver {
     return true;
   }
 
-  Eigen::VectorXd sample(const Eigen::VectorXd& white) override { return cholesky_.sample(white); }
-
  private:
   void assemble(const DepthSystem& system) {
     matrix_.clear();

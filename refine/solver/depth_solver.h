@@ -43,16 +43,13 @@ class DepthSolver {
 
   /// Solves the system. @return false when it is not positive definite; x is then untouched.
   virtual bool solve(const DepthSystem& system, Eigen::VectorXd& x) = 0;
-
-  /// Draws from the normal distribution whose precision is the last system solved. @param white standard normal.
-  virtual Eigen::VectorXd sample(const Eigen::VectorXd& white) = 0;
 };
 
 /// The exact solver: CHOLMOD, symbolic factorisation kept. The grid and cells must outlive it.
 std::unique_ptr<DepthSolver> make_cholesky_depth_solver(const PixelGrid& grid, const DepthCells& cells);
 
 /// Conjugate gradients with a multigrid preconditioner (refine/solver/multigrid.h): time and memory linear in the pixels.
-/// A system it does not converge on goes to the exact solver, which also draws the samples.
+/// A system it does not converge on goes to the exact solver.
 std::unique_ptr<DepthSolver> make_multigrid_depth_solver(const PixelGrid& grid, const DepthCells& cells);
 
 }  // namespace rakelight

@@ -32,17 +32,8 @@ class MultigridDepthSolver final : public DepthSolver {
   }
 
   bool solve(const DepthSystem& system, Eigen::VectorXd& x) override {
-    last_ = std::make_unique<DepthSystem>(system);
-    exact_has_last_ = false;
     if (multigrid_.setup(stencil_of(system)) && conjugate_gradients(system, x)) return true;
-    return exact_has_last_ = exact_->solve(system, x);
-  }
-
-  Eigen::VectorXd sample(const Eigen::VectorXd& white) override {
-    if (last_ == nullptr) throw std::logic_error("sample() needs a system solved before");
-    Eigen::VectorXd unused;
-    if (!exact_has_last_) exact_has_last_ = exact_->solve(*last_, unused);
-    return exact_->sample(white);
+    return exact_->solve(system, x);
   }
 
  private:
@@ -149,8 +140,6 @@ class MultigridDepthSolver final : public DepthSolver {
   bool single_cells_;                  ///< a cell is a pixel: lumped is exact
   Multigrid multigrid_;
   std::unique_ptr<DepthSolver> exact_;
-  std::unique_ptr<DepthSystem> last_;
-  bool exact_has_last_ = false;
 };
 
 }  // namespace

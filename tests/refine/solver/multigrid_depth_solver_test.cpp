@@ -97,17 +97,6 @@ TEST(MultigridDepthSolver, LeavesASystemItCannotSolveToTheExactOne) {
   EXPECT_FALSE(make_multigrid_depth_solver(rough.grid, rough.cells)->solve(rough.system, x));
 }
 
-TEST(MultigridDepthSolver, DrawsTheExactSolversSamples) {
-  const RoughSystem rough(60, 40, 2, 10);
-  const auto fast = make_multigrid_depth_solver(rough.grid, rough.cells);
-  const auto exact = make_cholesky_depth_solver(rough.grid, rough.cells);
-  Eigen::VectorXd x;
-  ASSERT_TRUE(fast->solve(rough.system, x));
-  ASSERT_TRUE(exact->solve(rough.system, x));
-  const Eigen::VectorXd white = Eigen::VectorXd::LinSpaced(rough.grid.size(), -2, 2);
-  EXPECT_TRUE(fast->sample(white).isApprox(exact->sample(white), 1e-12));
-}
-
 /// A full rectangle of the 5-point Laplacian plus a little.
 StencilGrid laplacian(int width, int height, float more) {
   StencilGrid A(width, height);
