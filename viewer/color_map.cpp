@@ -36,8 +36,7 @@ std::vector<float> finite_values(const std::vector<float>& values) {
 
 /// @param values not empty; reordered
 double percentile(std::vector<float>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return static_cast<double>(*at);
 }
@@ -47,7 +46,8 @@ double percentile(std::vector<float>& values, double share) {
 cv::Vec3b color_of(const ColorRange& range, double value) {
   if (std::isnan(value)) return kNoValue;
   const double share = std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
-  if (range.scale == ColorScale::sequential) return viridis()[static_cast<std::size_t>(share * 255 + 0.5)];
+  if (range.scale == ColorScale::sequential)
+    return viridis()[static_cast<std::size_t>(std::lround(share * 255))];
   const double side = 2 * share - 1;
   return kZero + std::abs(side) * ((side < 0 ? kMinus : kPlus) - kZero);
 }

@@ -33,7 +33,7 @@ cv::Mat3b display_picture(const LightStack& stack, const Frame& frame) {
     for (int x = 0; x < linear.cols; ++x) {
       for (int c = 0; c < 3; ++c) {
         const float share = std::min(1.0f, std::max(0.0f, linear(y, x)[c]));
-        picture(y, x)[c] = table[static_cast<std::size_t>(share * kSteps + 0.5f)];
+        picture(y, x)[c] = table[static_cast<std::size_t>(share * kSteps)];
       }
     }
   }
