@@ -21,5 +21,6 @@ void add_lights_command(CLI::App& program, int& exit_code);
 void add_doctor_command(CLI::App& program, int& exit_code);
 void add_scan_command(CLI::App& program, int& exit_code);
 void add_table_command(CLI::App& program, int& exit_code);
+void add_view_command(CLI::App& program, int& exit_code);
 
 }  // namespace rakelight::cli

@@ -129,6 +129,9 @@ int run(int argc, char** argv) {
   add_import_command(program, exit_code);
   add_info_command(program, exit_code);
   add_verify_command(program, exit_code);
+#ifdef RAKELIGHT_HAS_VIEWER
+  add_view_command(program, exit_code);
+#endif
   const int failure = parse_and_run(program, argc, argv);
   return flush_stdout(failure != 0 ? failure : exit_code);
 }

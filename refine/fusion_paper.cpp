@@ -77,7 +77,7 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
         1e3 * model.unit_m * std::sqrt((next - z).squaredNorm() / static_cast<double>(z.size()));
     report.sensor_weight = options.depth.sensor_weight;
     result.iterations.push_back(report);
-    after_iteration(t, static_cast<double>(t) / options.max_iterations);
+    after_iteration(t, static_cast<double>(t) / options.max_iterations, (model.unit_m * next).array().log().matrix());
     if (report.energy >= best) {  // Alg. 1, line 4
       result.termination = Termination::converged;
       result.message = "stopped as Alg. 1 does: its energy no longer fell at iteration " + std::to_string(t) +

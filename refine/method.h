@@ -25,8 +25,8 @@ struct MethodResult {
   Uncertainty uncertainty;               ///< empty where the method gives none
 };
 
-/// Called after each outer iteration with its number and the share done; throws Cancelled to stop.
-using IterationCallback = std::function<void(int iteration, double fraction_done)>;
+/// Called after each outer iteration with its number, the share done and log z [pixel] (m); throws Cancelled to stop.
+using IterationCallback = std::function<void(int iteration, double fraction_done, const Eigen::VectorXd& zeta)>;
 
 /// The state every method starts from: the sensor's shape, white, every usable sample trusted, no lamps yet.
 SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& options);

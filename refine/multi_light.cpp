@@ -132,7 +132,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     report.depth_change_mm = rms_change_mm(before, state.zeta);
     report.sensor_weight = prior.cell_weight.maxCoeff();
     result.iterations.push_back(report);
-    after_iteration(t, static_cast<double>(t) / options.max_iterations);
+    after_iteration(t, static_cast<double>(t) / options.max_iterations, state.zeta);
 
     if (!step.solved) {
       result.termination = Termination::diverged;

@@ -39,7 +39,14 @@ class ThreadCount {
 };
 
 void report(const ProgressCallback& progress, const std::string& stage, double fraction, int iteration) {
-  if (progress && !progress({stage, fraction, iteration})) throw Cancelled();
+  if (progress && !progress({stage, fraction, iteration, {}})) throw Cancelled();
+}
+
+SurfaceSoFar surface_so_far(const PixelGrid& grid, const Eigen::VectorXd& zeta) {
+  SurfaceSoFar surface{grid.camera, cv::Mat1f(grid.index.size(), kNaN)};
+  for (int p = 0; p < grid.size(); ++p)
+    surface.depth(grid.pixels[static_cast<size_t>(p)]) = static_cast<float>(std::exp(zeta[p]));
+  return surface;
 }
 
 cv::Mat3f scatter3(const PixelGrid& grid, const Eigen::Matrix3Xf& values) {
@@ -187,8 +194,10 @@ RefineResult refine_depth(const LightStack& recorded, const RefineOptions& optio
   RefineProblem problem = make_problem(stack, options);
   const std::string which_image = select_images(stack, options, problem);
   report(progress, "refining", kPreparation, 0);
-  const IterationCallback after_iteration = [&](int iteration, double fraction) {
-    report(progress, "refining", kPreparation + (1 - kPreparation) * fraction, iteration);
+  const IterationCallback after_iteration = [&](int iteration, double fraction, const Eigen::VectorXd& zeta) {
+    const auto surface = [&] { return surface_so_far(problem.grid, zeta); };
+    const double done = kPreparation + (1 - kPreparation) * fraction;
+    if (progress && !progress({"refining", done, iteration, surface})) throw Cancelled();
   };
   MethodResult method = run_method(problem, options, after_iteration);
   method.message += which_image;

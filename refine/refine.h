@@ -74,11 +74,18 @@ struct RefineResult {
   RefineOptions options;                 ///< every parameter used, resolved
 };
 
+/// A surface on its way, on the refined grid.
+struct SurfaceSoFar {
+  Camera camera;
+  cv::Mat1f depth;  ///< metres, NaN where there is no surface
+};
+
 /// Where the work stands; return false to cancel (refine_depth then throws Cancelled).
 struct Progress {
   std::string stage;        ///< e.g. "depth step"
   double fraction_done = 0; ///< of the whole, 0 to 1
   int iteration = 0;        ///< outer iterations done
+  std::function<SurfaceSoFar()> surface = {};  ///< makes it, inside the callback only; empty before the first iteration
 };
 using ProgressCallback = std::function<bool(const Progress&)>;
 

@@ -92,7 +92,7 @@ MethodResult ratio_as_printed(const RefineProblem& problem, const RefineOptions&
     report.depth_change_mm = rms_change_mm(before, state.zeta);
     report.sensor_weight = options.depth.sensor_weight;
     result.iterations.push_back(report);
-    after_iteration(t, static_cast<double>(t) / options.max_iterations);
+    after_iteration(t, static_cast<double>(t) / options.max_iterations, state.zeta);
     if (t > 1 && report.energy >= best) {
       result.termination = Termination::converged;
       result.message = "stopped as Alg. 2 does: its energy rose at iteration " + std::to_string(t) +

@@ -181,7 +181,7 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
     report.residual_scale = errors.sample;
     report.sensor_weight = prior.cell_weight.maxCoeff();
     result.iterations.push_back(report);
-    after_iteration(t, static_cast<double>(t) / options.max_iterations);
+    after_iteration(t, static_cast<double>(t) / options.max_iterations, state.zeta);
     if (!step.solved) {
       fail("depth", t);
       break;

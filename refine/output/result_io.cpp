@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/output/result_io.h"
 
+#include <future>
+#include <limits>
 #include <string>
 
 #include "refine/output/glb.h"
@@ -34,7 +36,29 @@ const FolderKind& result_kind() {
   return kind;
 }
 
-Camera read_camera_of(const fs::path& file) {
+/// A number of an iteration; 0 where the file has null (no number then).
+double number_or_zero(ObjectReader& iteration, const std::string& key) {
+  constexpr double kAny = std::numeric_limits<double>::max();
+  return iteration.maybe_number(key, -kAny, kAny).value_or(0);
+}
+
+std::vector<IterationReport> read_iterations(ObjectReader& manifest) {
+  constexpr std::size_t kMostIterations = 1'000'000;
+  std::vector<IterationReport> iterations;
+  for (ObjectReader& iteration : manifest.objects("iterations", kMostIterations)) {
+    IterationReport report;
+    report.index = static_cast<int>(iteration.integer("index", 0, kMostIterations));
+    report.energy = number_or_zero(iteration, "energy");
+    report.energy_before_depth = number_or_zero(iteration, "energy_before_depth");
+    report.depth_change_mm = number_or_zero(iteration, "depth_change_mm");
+    report.residual_scale = number_or_zero(iteration, "residual_scale");
+    report.seconds = number_or_zero(iteration, "seconds");
+    iterations.push_back(report);
+  }
+  return iterations;
+}
+
+void read_manifest(const fs::path& file, StoredResult& result) {
   const Bytes bytes = read_file(file, kMaxManifestBytes);
   const auto json = parse_strict_json({bytes.begin(), bytes.end()}, file.string());
   ObjectReader manifest(json, file.string());
@@ -46,7 +70,14 @@ Camera read_camera_of(const fs::path& file) {
   }
   manifest.get("camera");
   ObjectReader camera = *manifest.maybe_object("camera");
-  return read_camera(camera);
+  result.camera = read_camera(camera);
+  result.message = manifest.text("message", "");
+  if (manifest.find("iterations") != nullptr) result.iterations = read_iterations(manifest);
+}
+
+bool present(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
 }
 
 }  // namespace
@@ -75,12 +106,20 @@ void check_result_folder(const fs::path& folder) {
 
 StoredResult read_result(const fs::path& folder) {
   StoredResult result;
-  result.camera = read_camera_of(folder / kManifest);
-  result.depth = read_float_tiff(folder / "depth.tiff", result.camera.size());
-  result.initial_depth = read_float_tiff(folder / "initial_depth.tiff", result.camera.size());
-  result.normals = read_float3_tiff(folder / "normals.tiff", result.camera.size());
-  if (std::filesystem::exists(folder / "uncertainty.tiff"))
-    result.uncertainty = read_float3_tiff(folder / "uncertainty.tiff", result.camera.size());
+  read_manifest(folder / kManifest, result);
+  const cv::Size size = result.camera.size();
+  const auto map3 = [&](const char* name) { return read_float3_tiff(folder / name, size); };
+  // Decompression takes the time: the large maps are read beside each other.
+  auto normals = std::async(std::launch::async, map3, "normals.tiff");
+  std::future<cv::Mat3f> uncertainty, albedo;
+  if (present(folder / "uncertainty.tiff"))
+    uncertainty = std::async(std::launch::async, map3, "uncertainty.tiff");
+  if (present(folder / "albedo.tiff")) albedo = std::async(std::launch::async, map3, "albedo.tiff");
+  result.depth = read_float_tiff(folder / "depth.tiff", size);
+  result.initial_depth = read_float_tiff(folder / "initial_depth.tiff", size);
+  result.normals = normals.get();
+  if (uncertainty.valid()) result.uncertainty = uncertainty.get();
+  if (albedo.valid()) result.albedo = albedo.get();
   return result;
 }
 

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "refine/refine.h"
 
@@ -27,6 +29,9 @@ struct StoredResult {
   cv::Mat1f initial_depth;  ///< the sensor's, before refinement, metres, NaN outside
   cv::Mat3f normals;        ///< camera frame, NaN outside; channels x, y, z
   cv::Mat3f uncertainty;    ///< as in RefineResult; empty where the result has none
+  cv::Mat3f albedo;         ///< linear RGB, NaN outside; empty where the result has none
+  std::string message;      ///< one sentence on how the refinement ended
+  std::vector<IterationReport> iterations;
 };
 
 /// Reads a result folder. @throws InputError naming the file, the fault and the cure; IoError.

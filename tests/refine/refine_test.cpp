@@ -175,6 +175,23 @@ TEST(RefineDepth, ReportsProgressThatOnlyGrows) {
   EXPECT_DOUBLE_EQ(last, 1);
 }
 
+TEST(RefineDepth, ShowsTheSurfaceOnItsWayToTheResult) {
+  std::vector<SurfaceSoFar> surfaces;
+  const RefineResult result = refine_depth(bump_stack(), at_scale(2), [&](const Progress& progress) {
+    if (progress.surface) surfaces.push_back(progress.surface());
+    return true;
+  });
+  ASSERT_EQ(surfaces.size(), result.iterations.size());
+  const auto distance = [&](const SurfaceSoFar& surface) {
+    cv::Mat1f difference = cv::Mat(cv::abs(surface.depth - result.depth));
+    cv::patchNaNs(difference, 0);
+    return cv::norm(difference, cv::NORM_INF);
+  };
+  EXPECT_EQ(surfaces.front().camera.size(), result.camera.size());
+  EXPECT_GT(distance(surfaces.front()), 1e-5);
+  EXPECT_LT(distance(surfaces.back()), 1e-6);
+}
+
 TEST(RefineDepth, StopsWhenItsCallerSaysSo) {
   EXPECT_THROW(refine_depth(bump_stack(), at_scale(1), [](const Progress&) { return false; }), Cancelled);
   int last = 0;
