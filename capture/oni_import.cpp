@@ -21,6 +21,7 @@ class Recording {
   explicit Recording(const std::filesystem::path& file) : file_(file) {
     if (!std::filesystem::is_regular_file(file))
       throw InputError(file.string(), "no such file", "check the path");
+    require_openni();
     if (device_.open(file.c_str()) != openni::STATUS_OK || device_.getPlaybackControl() == nullptr)
       refuse("is no OpenNI2 recording");
     if (color_.create(device_, openni::SENSOR_COLOR) != openni::STATUS_OK) refuse("has no colour stream");
@@ -90,7 +91,6 @@ class Recording {
 
   static constexpr int kReadLimit_ms = 5000;
 
-  OpenniSession session_;
   const std::filesystem::path file_;
   openni::Device device_;
   openni::VideoStream color_, depth_;

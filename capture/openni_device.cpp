@@ -4,12 +4,15 @@
 
 #include <OpenNI.h>
 
+#include "capture/openni_session.h"
 #include "capture/virtual_sensor.h"
 #include "simulate/virtual_sensor/driver/protocol.h"
 
 namespace rakelight {
 
-OpenniDevice::OpenniDevice(const std::string& uri) : device_(std::make_unique<openni::Device>()) {
+OpenniDevice::OpenniDevice(const std::string& uri) {
+  require_openni();
+  device_ = std::make_unique<openni::Device>();
   if (device_->open(uri.empty() ? openni::ANY_DEVICE : uri.c_str()) == openni::STATUS_OK) return;
   throw openni_error(std::errc::no_such_device, "cannot open the sensor " + (uri.empty() ? "(any)" : uri),
                      "rakelight doctor says what is plugged in and what is wrong");

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <memory>
 
-#include "capture/openni_session.h"
 #include "capture/rig.h"
 
 namespace openni {
@@ -28,7 +27,6 @@ class OpenniDevice {
   bool set_property(int id, const void* data, std::size_t size);
 
  private:
-  OpenniSession session_;
   std::unique_ptr<openni::Device> device_;
 };
 

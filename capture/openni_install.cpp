@@ -9,6 +9,8 @@
 #include <regex>
 #include <set>
 
+#include "capture/openni_session.h"
+
 namespace rakelight {
 namespace fs = std::filesystem;
 namespace {
@@ -26,7 +28,7 @@ std::string version_text(const openni::Version& version) {
          std::to_string(version.maintenance) + "." + std::to_string(version.build);
 }
 
-OpenniDevice device_of(const openni::DeviceInfo& info) {
+ListedDevice device_of(const openni::DeviceInfo& info) {
   char usb_id[16];
   std::snprintf(usb_id, sizeof usb_id, "%04x:%04x", info.getUsbVendorId(), info.getUsbProductId());
   return {info.getUri(), info.getVendor(), info.getName(), usb_id};
@@ -56,14 +58,15 @@ OpenniInstall examine_openni() {
   OpenniInstall install;
   install.version = version_text(openni::OpenNI::getVersion());
   install.drivers = list_openni_drivers(drivers_folder());
-  if (openni::OpenNI::initialize() != openni::STATUS_OK) {
-    install.trouble = openni::OpenNI::getExtendedError();
+  try {
+    require_openni();
+  } catch (const std::system_error& error) {
+    install.trouble = error.what();
     return install;
   }
   openni::Array<openni::DeviceInfo> devices;
   openni::OpenNI::enumerateDevices(&devices);
   for (int k = 0; k < devices.getSize(); ++k) install.devices.push_back(device_of(devices[k]));
-  openni::OpenNI::shutdown();
   return install;
 }
 

@@ -8,14 +8,24 @@
 
 namespace rakelight {
 
-OpenniSession::OpenniSession() {
-  if (openni::OpenNI::initialize() != openni::STATUS_OK) {
-    throw openni_error(std::errc::no_such_device, "cannot start OpenNI2",
-                       "rakelight doctor says what is missing");
-  }
-}
+namespace {
 
-OpenniSession::~OpenniSession() { openni::OpenNI::shutdown(); }
+/// Shut down when the program ends.
+struct Library {
+  bool started = openni::OpenNI::initialize() == openni::STATUS_OK;
+  ~Library() {
+    if (started) openni::OpenNI::shutdown();
+  }
+};
+
+}  // namespace
+
+void require_openni() {
+  static Library library;
+  if (!library.started) library.started = openni::OpenNI::initialize() == openni::STATUS_OK;
+  if (library.started) return;
+  throw openni_error(std::errc::no_such_device, "cannot start OpenNI2", "rakelight doctor says what is missing");
+}
 
 std::system_error openni_error(std::errc code, const std::string& attempt, const std::string& cure) {
   std::string reason = openni::OpenNI::getExtendedError();

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// OpenNI2 loaded for as long as something of ours needs it, and its errors as ours.
+// OpenNI2 loaded until the program ends, and its errors as ours.
+//
+// It is not shut down and started anew for each device: for every new thread, the library asks pthread_kill whether the
+// threads it has seen before are still alive, and dies when one's stack is gone. Each shutdown ends its drivers' threads,
+// more than the C library keeps stacks for.
 #pragma once
 
 #include <string>
@@ -9,14 +13,8 @@
 
 namespace rakelight {
 
-class OpenniSession {
- public:
-  /// @throws std::system_error if the library does not start.
-  OpenniSession();
-  ~OpenniSession();
-  OpenniSession(const OpenniSession&) = delete;
-  OpenniSession& operator=(const OpenniSession&) = delete;
-};
+/// Starts the library unless it runs. @throws std::system_error if it does not start.
+void require_openni();
 
 /// One line: what was attempted, what the library says, what to do.
 std::system_error openni_error(std::errc code, const std::string& attempt, const std::string& cure);

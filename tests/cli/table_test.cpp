@@ -109,7 +109,7 @@ TEST_F(Table, RefusesOptionsOutOfRange) {
 
 TEST_F(Table, StopsOnAnInterruptAndSaysWhatIsKept) {
   RunningProgram program({"table", scan(), "-o", out()});
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  while (!fs::exists(out())) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // it has begun
   program.send(SIGINT);
   const Ran ran = program.wait();
   EXPECT_EQ(ran.exit_code, 130) << ran.err;
