@@ -48,7 +48,8 @@ cv::Mat1b middle_piece(const cv::Mat1f& depth, const cv::Mat1b& lit) {
   const cv::Mat1i labels = label_pieces(depth, lit, count);
   std::vector<int> area(static_cast<std::size_t>(count) + 1, 0);
   const cv::Size half(int(depth.cols * kMiddle), int(depth.rows * kMiddle));
-  const cv::Rect middle((depth.cols - half.width) / 2, (depth.rows - half.height) / 2, half.width, half.height);
+  const cv::Rect middle((depth.cols - half.width) / 2, (depth.rows - half.height) / 2, half.width,
+                        half.height);
   for (const int label : cv::Mat1i(labels(middle))) ++area[static_cast<std::size_t>(label)];
   area[0] = 0;
   const auto best = std::max_element(area.begin(), area.end());

@@ -17,10 +17,10 @@
 namespace rakelight {
 namespace {
 
-constexpr int kSettleFrames = 4;   // after the exposure has been set
+constexpr int kSettleFrames = 4;  // after the exposure has been set
 constexpr int kMeteringRounds = 6;
-constexpr int kMeteringPasses = 4; // over what was dropped
-constexpr double kObeys = 0.5;     // share of a change in exposure that must show in the picture
+constexpr int kMeteringPasses = 4;  // over what was dropped
+constexpr double kObeys = 0.5;      // share of a change in exposure that must show in the picture
 constexpr double kClearChange = 0.25;
 
 /// RFC 3339, UTC.
@@ -66,8 +66,7 @@ class AllOff {
     }
     try {
       devices_.source.stop();
-    } catch (const std::exception&) {
-    }
+    } catch (const std::exception&) {}
   }
 
  private:
@@ -76,7 +75,8 @@ class AllOff {
 
 class Scan {
  public:
-  Scan(const Devices& devices, const Rig& rig, const ScanOptions& options, const ScanProgressCallback& progress)
+  Scan(const Devices& devices, const Rig& rig, const ScanOptions& options,
+       const ScanProgressCallback& progress)
       : devices_(devices),
         rig_(rig),
         options_(options),
@@ -103,7 +103,9 @@ class Scan {
  private:
   using Pictures = std::map<std::size_t, Frame>;  ///< by step
 
-  int repeats() const { return options_.resume ? options_.resume->repeats : options_.repeats.value_or(rig_.repeats); }
+  int repeats() const {
+    return options_.resume ? options_.resume->repeats : options_.repeats.value_or(rig_.repeats);
+  }
   bool rgb_shot() const {
     return options_.resume ? options_.resume->rgb_shot : options_.rgb_shot.value_or(rig_.rgb_shot);
   }
@@ -116,7 +118,8 @@ class Scan {
     if (options_.resume) {
       state_ = *options_.resume;
       check_same_lamps();
-      exposure_ = {state_.stack.exposure_us.value_or(rig_.sensor.exposure_us), state_.stack.gain.value_or(rig_.sensor.gain)};
+      exposure_ = {state_.stack.exposure_us.value_or(rig_.sensor.exposure_us),
+                   state_.stack.gain.value_or(rig_.sensor.gain)};
       return;
     }
     state_.stack = stack_header(devices_.source.describe(), rig_, plan_);
@@ -133,7 +136,8 @@ class Scan {
                        "'; resume it with its own rig file, or scan anew into another folder");
     }
     if (state_.stack.color_camera.size() != devices_.source.describe().color_camera.size()) {
-      throw UsageError("the unfinished scan has colour images of another size; resume it with its own rig file");
+      throw UsageError(
+          "the unfinished scan has colour images of another size; resume it with its own rig file");
     }
   }
 
@@ -179,12 +183,15 @@ class Scan {
       if (find_lag()) return;
       if (options_.resume) break;  // its exposure is known to be right
     }
-    throw DeviceError("switched every lamp on and off, but the picture never changed; check the lamps' supply and lines "
-                      "('rakelight lights test'), and that the sensor sees what they light");
+    throw DeviceError(
+        "switched every lamp on and off, but the picture never changed; check the lamps' supply and lines "
+        "('rakelight lights test'), and that the sensor sees what they light");
   }
 
   void find_lag_again() {
-    if (!find_lag()) throw DeviceError("measured the lamps' latency again, but the picture no longer changes; check their supply");
+    if (!find_lag())
+      throw DeviceError(
+          "measured the lamps' latency again, but the picture no longer changes; check their supply");
   }
 
   /// One picture of each step, dark first, the lamps backwards: an error in timing then differs from the sequence's.
@@ -203,8 +210,9 @@ class Scan {
       steps.erase(std::remove_if(steps.begin(), steps.end(), taken), steps.end());
     }
     if (steps.empty()) return pictures;
-    throw DeviceError("waited for a whole frame under each lamp, but too many frames are dropped; use another USB port, "
-                      "or fewer streams on this one");
+    throw DeviceError(
+        "waited for a whole frame under each lamp, but too many frames are dropped; use another USB port, "
+        "or fewer streams on this one");
   }
 
   /// After a reset of the device's clock the lag has to be measured anew.
@@ -222,7 +230,8 @@ class Scan {
       const Pictures pictures = take_pictures();
       const CoarseScene scene = scene_of(pictures);
       const cv::Mat1b object = object_of(scene, pictures);
-      const Brightness seen = measure_brightness(scene, object, lit_images(pictures), state_.stack.color_response);
+      const Brightness seen =
+          measure_brightness(scene, object, lit_images(pictures), state_.stack.color_response);
       result_.metering_rounds = round;
       if (round > 1 && !obeyed(before, seen, commanded)) {
         warn("the sensor does not follow the exposure it is told: check its automatic exposure");
@@ -274,7 +283,8 @@ class Scan {
     const ColorResponse& response = state_.stack.color_response;
     const cv::Mat3f dark = at_cells(scene, pictures.at(0).color, response);
     cv::Mat3f most(scene.size, cv::Vec3f(0, 0, 0));
-    for (const cv::Mat& color : lit_images(pictures)) most = cv::max(most, at_cells(scene, color, response) - dark);
+    for (const cv::Mat& color : lit_images(pictures))
+      most = cv::max(most, at_cells(scene, color, response) - dark);
     cv::Mat1f light;
     cv::transform(most, light, cv::Matx13f(1, 1, 1));
     const cv::Mat1b object = object_cells(scene, light);
@@ -319,16 +329,9 @@ class Scan {
   }
 
   void take_sequence() {
-    std::optional<std::int64_t> first_us, last_us;
-    sequence_.run(missing_steps(), 0, [&](const StepFrame& taken) {
-      if (!first_us) first_us = taken.frame.time_us;
-      last_us = taken.frame.time_us;
-      take(taken);
-    });
-    if (first_us) {
-      const ExposureWindow first = feed_.window(*first_us), last = feed_.window(*last_us);
-      result_.sensor_time_us = last.closes_us - first.opens_us;
-    }
+    const ExposureWindow span =
+        sequence_.run(missing_steps(), 0, [this](const StepFrame& taken) { take(taken); });
+    result_.sensor_time_us = span.closes_us - span.opens_us;
   }
 
   void retake() {
@@ -374,7 +377,8 @@ class Scan {
     }
     keep(std::move(frame));
     keep_more_depth(*slot, taken.frame.frame.device_us);
-    told_ = {"scanning", 0.4 + 0.6 * double(state_.stack.frames.size()) / double(plan_.slots * options_.depth_frames)};
+    told_ = {"scanning",
+             0.4 + 0.6 * double(state_.stack.frames.size()) / double(plan_.slots * options_.depth_frames)};
   }
 
   std::optional<int> free_slot(const ScanStep& step) const {
@@ -422,7 +426,9 @@ class Scan {
   void settle_unproven(int slot, Frame frame) {
     if (state_.has_slot(slot)) return;
     const std::string looks_like = state_.signatures.nearest(frame.color);
-    const std::string name = [](const std::string& id) { return id.empty() ? "the dark" : "lamp '" + id + "'"; }(looks_like);
+    const std::string name = [](const std::string& id) {
+      return id.empty() ? "the dark" : "lamp '" + id + "'";
+    }(looks_like);
     const bool same = looks_like == frame.light.value_or("");
     warn("the picture under " + (frame.light ? "lamp '" + *frame.light + "'" : std::string("no lamp")) +
          " does not match what it showed before" + (same ? "" : " and looks like " + name) +
@@ -432,8 +438,10 @@ class Scan {
 
   void check_complete() {
     for (const std::size_t step : missing_steps()) {
-      const std::string what = plan_.steps[step].light ? "lamp '" + *plan_.steps[step].light + "'" : "the dark";
-      warn(what + " has " + std::to_string(missing_images(plan_.steps[step])) + " images fewer than asked for: no whole frame came");
+      const std::string what =
+          plan_.steps[step].light ? "lamp '" + *plan_.steps[step].light + "'" : "the dark";
+      warn(what + " has " + std::to_string(missing_images(plan_.steps[step])) +
+           " images fewer than asked for: no whole frame came");
     }
   }
 
@@ -445,9 +453,12 @@ class Scan {
     if (pictures.empty() || pictures.at(0).light) return;
     const CoarseScene scene = scene_of(pictures);
     const cv::Mat1b object = object_of(scene, pictures);
-    result_.saturated = measure_brightness(scene, object, lit_images(pictures), state_.stack.color_response).saturated;
+    result_.saturated =
+        measure_brightness(scene, object, lit_images(pictures), state_.stack.color_response).saturated;
     if (result_.saturated > options_.metering.max_saturated)
-      warn("over 1 % of the object is saturated under some lamp: lower exposure or gain in the rig file, or scan with metering");
+      warn(
+          "over 1 % of the object is saturated under some lamp: lower exposure or gain in the rig file, or "
+          "scan with metering");
   }
 
   const Devices& devices_;
@@ -470,7 +481,9 @@ class Scan {
 ScanResult capture_stack(const Devices& devices, const Rig& rig, const ScanOptions& options,
                          const ScanProgressCallback& progress) {
   if (!devices.source.describe().live) {
-    throw UsageError("a recording does not follow the lamps; read it as a stack, or import it with 'rakelight import oni'");
+    throw UsageError(
+        "a recording does not follow the lamps; read it as a stack, or import it with 'rakelight import "
+        "oni'");
   }
   const AllOff on_every_way_out(devices);
   devices.source.start();

@@ -39,9 +39,9 @@ struct ScanOptions {
   std::optional<bool> rgb_shot;  ///< the colour shot; empty: the rig's
   bool meter = true;             ///< find the exposure; otherwise the rig's is taken as it is
   MeteringLimits metering;
-  int max_retakes = 4;           ///< passes over what has failed
-  int depth_frames = 2;          ///< kept an image
-  double margin_us = 500;        ///< of the gate, for clocks and the measured lag
+  int max_retakes = 4;              ///< passes over what has failed
+  int depth_frames = 2;             ///< kept an image
+  double margin_us = 500;           ///< of the gate, for clocks and the measured lag
   std::optional<ScanState> resume;  ///< go on with this
   /// Called for each frame that is kept, as it comes. Must not take long.
   std::function<void(const ScanState&, const Frame&)> on_frame;
@@ -58,11 +58,11 @@ struct ScanResult {
   LightStack stack;
   std::vector<LampFault> faults;
   std::vector<std::string> warnings;  ///< one sentence each
-  double sensor_time_us = 0;          ///< first row of the first frame to last row of the last, without retakes
-  int retaken = 0;                    ///< frames that were taken again
-  int dropped = 0;                    ///< frames that never came
-  double lag_us = 0;                  ///< write to picture
-  double saturated = 0;               ///< share of the object's area under the lamp that saturates most
+  double sensor_time_us = 0;  ///< first row of the first frame to last row of the last, without retakes
+  int retaken = 0;            ///< frames that were taken again
+  int dropped = 0;            ///< frames that never came
+  double lag_us = 0;          ///< write to picture
+  double saturated = 0;       ///< share of the object's area under the lamp that saturates most
   int metering_rounds = 0;
 };
 

@@ -10,12 +10,12 @@
 namespace rakelight {
 namespace {
 
-constexpr std::size_t kWindow = 900;                  // arrivals remembered: 30 s at 30 fps
-constexpr std::int64_t kSpanForDrift_us = 10'000'000; // below it jitter would pass for drift
-constexpr double kLargestDrift = 5e-4;                // quartz is within 1e-4
-constexpr std::int64_t kWrap_us = 71'582'788;         // 2^32 / 60 MHz
+constexpr std::size_t kWindow = 900;                   // arrivals remembered: 30 s at 30 fps
+constexpr std::int64_t kSpanForDrift_us = 10'000'000;  // below it jitter would pass for drift
+constexpr double kLargestDrift = 5e-4;                 // quartz is within 1e-4
+constexpr std::int64_t kWrap_us = 71'582'788;          // 2^32 / 60 MHz
 constexpr std::int64_t kWrapTolerance_us = 500'000;
-constexpr std::int64_t kResetJump_us = 1'000'000;     // no delivery is that uneven
+constexpr std::int64_t kResetJump_us = 1'000'000;  // no delivery is that uneven
 
 struct Point {
   double x, y;
@@ -47,7 +47,8 @@ double slope_over(const std::vector<Point>& hull, double x) {
 
 std::int64_t ClockFit::continuous(std::int64_t device_us, std::int64_t host_us) {
   if (last_raw_) {
-    const std::int64_t device_step = device_us - last_raw_->device_us, host_step = host_us - last_raw_->host_us;
+    const std::int64_t device_step = device_us - last_raw_->device_us,
+                       host_step = host_us - last_raw_->host_us;
     const bool wrapped = std::llabs(device_step + kWrap_us - host_step) < kWrapTolerance_us;
     const bool reset = device_step < 0 || std::llabs(device_step - host_step) > kResetJump_us;
     if (wrapped && device_step < 0) {

@@ -12,8 +12,9 @@ namespace rakelight {
 namespace {
 
 constexpr int kCellsWide = 80;
-constexpr double kSmoothing_cells = 1.2;  // depth noise is correlated over a few pixels: it survives the mean of a cell
-constexpr float kJump = 0.02F;            // of the depth from cell to cell: an edge of the object
+constexpr double kSmoothing_cells =
+    1.2;                        // depth noise is correlated over a few pixels: it survives the mean of a cell
+constexpr float kJump = 0.02F;  // of the depth from cell to cell: an edge of the object
 const float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// Mean of the readings of all frames in each cell, raw units; 0: fewer than half have one.
@@ -110,7 +111,8 @@ CoarseScene coarse_scene(const LightStack& stack, const std::vector<cv::Mat1w>& 
   for (int y = 0; y < scene.size.height; ++y) {
     for (int x = 0; x < scene.size.width; ++x) {
       if (depth(y, x) == 0) continue;
-      const Eigen::Vector3d p = point_of(stack, scene, x, y, static_cast<double>(depth(y, x)) * stack.depth_unit_m);
+      const Eigen::Vector3d p =
+          point_of(stack, scene, x, y, static_cast<double>(depth(y, x)) * stack.depth_unit_m);
       if (!(p.z() > 0)) continue;
       scene.points(y, x) = {float(p.x()), float(p.y()), float(p.z())};
       const double u = (color.fx * p.x() / p.z() + color.cx + 0.5) / color.width;

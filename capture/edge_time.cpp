@@ -18,7 +18,8 @@ constexpr double kNone = 0.05, kAll = 0.95;       // shares taken for not lit an
 
 std::array<float, 256> decoded_codes(const ColorResponse& response) {
   std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) table[i] = static_cast<float>(decode(response, double(i) / 255));
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = static_cast<float>(decode(response, double(i) / 255));
   return table;
 }
 

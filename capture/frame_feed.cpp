@@ -20,7 +20,11 @@ constexpr double kPeriodTolerance = 0.1;  // beyond it the frames' numbers are n
 }  // namespace
 
 FrameFeed::FrameFeed(FrameSource& source, HostClock& clock, FrameTiming timing, KeepGoing keep_going)
-    : source_(source), clock_(clock), timing_(timing), nominal_period_us_(timing.period_us), keep_going_(std::move(keep_going)),
+    : source_(source),
+      clock_(clock),
+      timing_(timing),
+      nominal_period_us_(timing.period_us),
+      keep_going_(std::move(keep_going)),
       last_arrival_us_(clock.now_us()) {}
 
 void FrameFeed::check_keep_going() const {
@@ -55,7 +59,8 @@ std::optional<TimedFrame> FrameFeed::poll(std::chrono::milliseconds timeout) {
   drain_depth();
   if (!frame) {
     if (clock_.now_us() - last_arrival_us_ > kStallLimit_us) {
-      throw SensorLost("waited for a frame of the sensor, but none has come for 1.5 s; is it still plugged in?");
+      throw SensorLost(
+          "waited for a frame of the sensor, but none has come for 1.5 s; is it still plugged in?");
     }
     return std::nullopt;
   }
@@ -87,7 +92,8 @@ void FrameFeed::run_until(std::int64_t until_us, const TakeFrame& take) {
 
 TimedFrame FrameFeed::next_color() {
   for (;;) {
-    if (std::optional<TimedFrame> frame = poll(std::chrono::milliseconds(kSlice_us / 1000))) return std::move(*frame);
+    if (std::optional<TimedFrame> frame = poll(std::chrono::milliseconds(kSlice_us / 1000)))
+      return std::move(*frame);
   }
 }
 
@@ -102,14 +108,14 @@ ExposureWindow FrameFeed::next_window(double from_us) const {
 }
 
 bool FrameFeed::depth_may_come(const SensorFrame& color) const {
-  return newest_depth_us_ < color.device_us && clock_.now_us() < color.host_us + std::lround(2 * timing_.period_us);
+  return newest_depth_us_ < color.device_us &&
+         clock_.now_us() < color.host_us + std::lround(2 * timing_.period_us);
 }
 
 SensorFrame FrameFeed::take_depth_near(std::int64_t device_us) {
   const auto distance = [device_us](const SensorFrame& f) { return std::llabs(f.device_us - device_us); };
-  const auto nearest = std::min_element(depth_.begin(), depth_.end(), [&](const auto& a, const auto& b) {
-    return distance(a) < distance(b);
-  });
+  const auto nearest = std::min_element(
+      depth_.begin(), depth_.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   if (nearest == depth_.end() || static_cast<double>(distance(*nearest)) > timing_.period_us) return {};
   SensorFrame frame = std::move(*nearest);
   depth_.erase(nearest);

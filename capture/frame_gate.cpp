@@ -14,7 +14,8 @@ FrameGate::Judgement FrameGate::judge(const ExposureWindow& window, const LampLa
   for (auto edge = edges_.rbegin(); edge != edges_.rend(); next = &*edge, ++edge) {
     if (static_cast<double>(edge->after_us) + lag.latest_us > window.opens_us) continue;
     const std::int64_t certain_until = next != nullptr ? next->before_us : now_us;
-    if (window.closes_us <= static_cast<double>(certain_until) + lag.earliest_us) return {Verdict::clean, *edge};
+    if (window.closes_us <= static_cast<double>(certain_until) + lag.earliest_us)
+      return {Verdict::clean, *edge};
     return {next != nullptr ? Verdict::mixed : Verdict::undecided, {}};
   }
   return {};

@@ -10,11 +10,11 @@
 namespace rakelight {
 namespace {
 
-constexpr double kNoLight = 0.08, kDim = 0.5;    // of the expected level
-constexpr double kStuckLevel = 0.35;             // light in the dark frame, of a lamp's level: more than a room's
-constexpr double kStuckLikeness = 0.5;           // correlation of the dark's share with the lamp's
-constexpr double kSwapMargin = 0.08;             // by which the other lamp must explain a picture better
-constexpr float kColorDominance = 2;             // a channel against the next, relative to white
+constexpr double kNoLight = 0.08, kDim = 0.5;  // of the expected level
+constexpr double kStuckLevel = 0.35;    // light in the dark frame, of a lamp's level: more than a room's
+constexpr double kStuckLikeness = 0.5;  // correlation of the dark's share with the lamp's
+constexpr double kSwapMargin = 0.08;    // by which the other lamp must explain a picture better
+constexpr float kColorDominance = 2;    // a channel against the next, relative to white
 constexpr std::size_t kFewestForShares = 3;
 
 using Shares = std::vector<float>;  // over the cells that count
@@ -55,10 +55,14 @@ class FaultFinder {
   /// Mean of the channels that the lamp's colour is of.
   double own_level(std::size_t k, const cv::Vec3f& color) const {
     switch (lamps_[k].color) {
-      case LampColor::red: return double(color[0]);
-      case LampColor::green: return double(color[1]);
-      case LampColor::blue: return double(color[2]);
-      default: return double(color[0] + color[1] + color[2]) / 3;
+      case LampColor::red:
+        return double(color[0]);
+      case LampColor::green:
+        return double(color[1]);
+      case LampColor::blue:
+        return double(color[2]);
+      default:
+        return double(color[0] + color[1] + color[2]) / 3;
     }
   }
 
@@ -90,13 +94,15 @@ class FaultFinder {
     }
   }
 
-  void report(LampFault::Kind kind, std::size_t k, double level, const std::string& text, std::string other = {}) {
+  void report(LampFault::Kind kind, std::size_t k, double level, const std::string& text,
+              std::string other = {}) {
     faults_.push_back({kind, lamps_[k].id, std::move(other), level, "lamp '" + lamps_[k].id + "' " + text});
   }
 
   std::vector<LampFault> all_dark() {
     for (std::size_t k = 0; k < lamps_.size(); ++k)
-      report(LampFault::Kind::no_light, k, 0, "gives no light; check its wiring, its line in the rig file and its supply");
+      report(LampFault::Kind::no_light, k, 0,
+             "gives no light; check its wiring, its line in the rig file and its supply");
     return std::move(faults_);
   }
 
@@ -105,12 +111,15 @@ class FaultFinder {
       const double level = share_of_typical(k);
       if (level >= kDim) continue;
       if (level >= kNoLight) {
-        report(LampFault::Kind::dim, k, level, "is dim: " + percent(level) +
-               " of the light that the others lead to expect; clean it, or check its current");
+        report(LampFault::Kind::dim, k, level,
+               "is dim: " + percent(level) +
+                   " of the light that the others lead to expect; clean it, or check its current");
       } else if (lights_the_dark(k)) {
-        report(LampFault::Kind::stuck_on, k, 1, "is stuck on: it lights the dark frames; check its switch and line");
+        report(LampFault::Kind::stuck_on, k, 1,
+               "is stuck on: it lights the dark frames; check its switch and line");
       } else {
-        report(LampFault::Kind::no_light, k, level, "gives no light; it is burnt out, unplugged or stuck off");
+        report(LampFault::Kind::no_light, k, level,
+               "gives no light; it is burnt out, unplugged or stuck off");
       }
     }
   }
@@ -155,7 +164,8 @@ class FaultFinder {
 
   static double correlation(const Shares& a, const Shares& b) {
     if (a.empty()) return 0;
-    const cv::Mat1f x(1, int(a.size()), const_cast<float*>(a.data())), y(1, int(b.size()), const_cast<float*>(b.data()));
+    const cv::Mat1f x(1, int(a.size()), const_cast<float*>(a.data())),
+        y(1, int(b.size()), const_cast<float*>(b.data()));
     cv::Scalar mean_x, mean_y, sigma_x, sigma_y;
     cv::meanStdDev(x, mean_x, sigma_x);
     cv::meanStdDev(y, mean_y, sigma_y);
@@ -201,8 +211,10 @@ class FaultFinder {
   }
 
   void report_swap(std::size_t k, std::size_t j) {
-    report(LampFault::Kind::swapped, k, 1, "is swapped with lamp '" + lamps_[j].id +
-           "': each picture shows the other's light; swap their lines in the rig file", lamps_[j].id);
+    report(LampFault::Kind::swapped, k, 1,
+           "is swapped with lamp '" + lamps_[j].id +
+               "': each picture shows the other's light; swap their lines in the rig file",
+           lamps_[j].id);
   }
 
   /// likeness[i][j]: correlation of picture i's share of light with the share that lamp j would have.
@@ -261,10 +273,14 @@ class FaultFinder {
 
 std::string to_string(LampFault::Kind kind) {
   switch (kind) {
-    case LampFault::Kind::no_light: return "no-light";
-    case LampFault::Kind::stuck_on: return "stuck-on";
-    case LampFault::Kind::dim: return "dim";
-    case LampFault::Kind::swapped: break;
+    case LampFault::Kind::no_light:
+      return "no-light";
+    case LampFault::Kind::stuck_on:
+      return "stuck-on";
+    case LampFault::Kind::dim:
+      return "dim";
+    case LampFault::Kind::swapped:
+      break;
   }
   return "swapped";
 }

@@ -11,14 +11,14 @@
 namespace rakelight {
 namespace {
 
-constexpr float kVisible = 0.012F;                 // linear, sum of channels: a code of 8 bits each
-constexpr float kSettled = 0.05F;                  // of the change: two frames that differ by less show one state
-constexpr float kNoise = 0.006F;                   // of a band's mean: they may differ by as much anyway
-constexpr std::int64_t kPatience_us = 400'000;     // the longest lag that is waited for
+constexpr float kVisible = 0.012F;  // linear, sum of channels: a code of 8 bits each
+constexpr float kSettled = 0.05F;   // of the change: two frames that differ by less show one state
+constexpr float kNoise = 0.006F;    // of a band's mean: they may differ by as much anyway
+constexpr std::int64_t kPatience_us = 400'000;  // the longest lag that is waited for
 constexpr int kSettleFrames = 6;
-constexpr int kMostToggles = 12;                   // short exposures see an edge only now and then
+constexpr int kMostToggles = 12;  // short exposures see an edge only now and then
 constexpr double kSharp_us = 500;
-constexpr double kGoldenRatio = 0.6180339887;      // its multiples fall evenly into a period
+constexpr double kGoldenRatio = 0.6180339887;  // its multiples fall evenly into a period
 
 ProfiledFrame profiled(const TimedFrame& frame, const ColorResponse& response) {
   return {frame.time_us, row_profile(frame.frame.image, response)};
@@ -34,7 +34,8 @@ std::optional<std::vector<ProfiledFrame>> watch_change(FrameFeed& feed, const Ro
     const RowProfile& now = frames.back().profile;
     const float change = largest_difference(now, before);
     if (change < kVisible || frames.size() < 2) continue;
-    if (largest_difference(now, frames[frames.size() - 2].profile) < std::max(kSettled * change, kNoise)) return frames;
+    if (largest_difference(now, frames[frames.size() - 2].profile) < std::max(kSettled * change, kNoise))
+      return frames;
   }
   return std::nullopt;
 }
@@ -159,16 +160,17 @@ LatencyCalibration summarise(const LagEstimate& estimate, const ClockFit& fit) {
   return {lags[lags.size() / 2], lags.back() - lags.front(), static_cast<int>(lags.size())};
 }
 
-LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostClock& clock, const FrameTiming& timing,
-                                     const std::string& lamp, const LatencyOptions& options,
-                                     FrameFeed::KeepGoing keep_going) {
+LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostClock& clock,
+                                     const FrameTiming& timing, const std::string& lamp,
+                                     const LatencyOptions& options, FrameFeed::KeepGoing keep_going) {
   source.start();
   FrameFeed feed(source, clock, timing, std::move(keep_going));
   const std::optional<LagEstimate> estimate = measure_lag(feed, lights, lamp, options);
   source.stop();
   if (!estimate) {
     throw DeviceError("measured the latency of lamp '" + lamp +
-                      "', but switching it does not change the picture; check its wiring and that the sensor sees its light");
+                      "', but switching it does not change the picture; check its wiring and that the sensor "
+                      "sees its light");
   }
   return summarise(*estimate, feed.clock_fit());
 }

@@ -50,13 +50,14 @@ class LagEstimate {
 
 /// What `rakelight calibrate latency` writes into the rig file.
 struct LatencyCalibration {
-  double lag_us = 0;     ///< median, write to picture on the line of earliest arrivals (lamp_latency_us + clock_offset_us)
+  double lag_us =
+      0;  ///< median, write to picture on the line of earliest arrivals (lamp_latency_us + clock_offset_us)
   double jitter_us = 0;  ///< from the least to the greatest lag
   int edges = 0;         ///< how many were seen
 };
 
 struct LatencyOptions {
-  int toggles = 1;             ///< times on and off again; more until one of each kind is seen sharply
+  int toggles = 1;  ///< times on and off again; more until one of each kind is seen sharply
   ColorResponse response;
 };
 
@@ -70,8 +71,8 @@ LatencyCalibration summarise(const LagEstimate& estimate, const ClockFit& fit);
 
 /// Starts `source`, switches `lamp` `toggles` times and stops again. @param timing of the exposure that is locked
 /// @throws as measure_lag; DeviceError if the lamp does not change the picture.
-LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostClock& clock, const FrameTiming& timing,
-                                     const std::string& lamp, const LatencyOptions& options,
-                                     FrameFeed::KeepGoing keep_going = {});
+LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostClock& clock,
+                                     const FrameTiming& timing, const std::string& lamp,
+                                     const LatencyOptions& options, FrameFeed::KeepGoing keep_going = {});
 
 }  // namespace rakelight

@@ -22,7 +22,8 @@ cv::Mat3f linear_rows(const cv::Mat& color, int first, int rows, const ColorResp
   const cv::Mat part = color.rowRange(first, first + rows);
   const double full = color.depth() == CV_16U ? 65535 : 255;
   std::vector<float> decoded(static_cast<std::size_t>(full) + 1);
-  for (std::size_t i = 0; i < decoded.size(); ++i) decoded[i] = static_cast<float>(decode(response, double(i) / full));
+  for (std::size_t i = 0; i < decoded.size(); ++i)
+    decoded[i] = static_cast<float>(decode(response, double(i) / full));
   cv::Mat3w codes;
   part.convertTo(codes, CV_16UC3);
   cv::Mat3f linear(part.size());
@@ -59,7 +60,8 @@ Signature difference(const Signature& a, const Signature& b) {
 }
 
 /// Greatest light of each row over all images, less the dark.
-std::vector<float> row_light(const std::vector<cv::Mat>& lit, const cv::Mat& dark, const ColorResponse& response) {
+std::vector<float> row_light(const std::vector<cv::Mat>& lit, const cv::Mat& dark,
+                             const ColorResponse& response) {
   std::vector<float> light(static_cast<std::size_t>(dark.rows), 0);
   for (int y = 0; y < dark.rows; ++y) {
     const cv::Vec3f ambient = mean_of(linear_rows(dark, y, 1, response));
@@ -74,7 +76,8 @@ std::vector<float> row_light(const std::vector<cv::Mat>& lit, const cv::Mat& dar
 
 }  // namespace
 
-SignatureBands find_bands(const std::vector<cv::Mat>& lit, const cv::Mat& dark, const ColorResponse& response) {
+SignatureBands find_bands(const std::vector<cv::Mat>& lit, const cv::Mat& dark,
+                          const ColorResponse& response) {
   const std::vector<float> light = row_light(lit, dark, response);
   const float enough = std::max(kBandShare * *std::max_element(light.begin(), light.end()), kNoiseFloor);
   const auto bright = [enough](float value) { return value >= enough; };
@@ -91,7 +94,8 @@ Signature signature_of(const cv::Mat& color, const SignatureBands& bands, const 
   for (std::size_t band = 0; band < 3; ++band) {
     const cv::Mat3f rows = linear_rows(color, bands.first_row[band], bands.rows, response);
     for (int piece = 0; piece < Signature::kPieces; ++piece) {
-      const int from = piece * color.cols / Signature::kPieces, to = (piece + 1) * color.cols / Signature::kPieces;
+      const int from = piece * color.cols / Signature::kPieces,
+                to = (piece + 1) * color.cols / Signature::kPieces;
       signature.bands[band][static_cast<std::size_t>(piece)] = mean_of(rows.colRange(from, to));
     }
   }
@@ -171,7 +175,8 @@ Signature parse_signature(const nlohmann::json& list) {
 std::string LitSignatures::text() const {
   nlohmann::json lit = nlohmann::json::object();
   for (const auto& [light, signature] : lit_) lit[light] = to_json(signature);
-  return nlohmann::json{{"first_row", bands_.first_row}, {"rows", bands_.rows}, {"dark", to_json(dark_)}, {"lit", lit}}
+  return nlohmann::json{
+      {"first_row", bands_.first_row}, {"rows", bands_.rows}, {"dark", to_json(dark_)}, {"lit", lit}}
       .dump();
 }
 
@@ -182,10 +187,12 @@ LitSignatures LitSignatures::parse(const std::string& text, const ColorResponse&
   result.bands_.first_row = json.at("first_row").get<std::array<int, 3>>();
   result.bands_.rows = json.at("rows").get<int>();
   for (const int row : result.bands_.first_row) {
-    if (row < 0 || result.bands_.rows < 1 || row > height - result.bands_.rows) throw std::out_of_range("bands");
+    if (row < 0 || result.bands_.rows < 1 || row > height - result.bands_.rows)
+      throw std::out_of_range("bands");
   }
   result.dark_ = parse_signature(json.at("dark"));
-  for (const auto& [light, signature] : json.at("lit").items()) result.lit_[light] = parse_signature(signature);
+  for (const auto& [light, signature] : json.at("lit").items())
+    result.lit_[light] = parse_signature(signature);
   return result;
 }
 

@@ -29,7 +29,8 @@ struct SignatureBands {
 
 /// Bands where the object is: the first, middle and last rows whose greatest light over all `lit` images, less `dark`, is a
 /// fair share of the brightest row's.
-SignatureBands find_bands(const std::vector<cv::Mat>& lit, const cv::Mat& dark, const ColorResponse& response);
+SignatureBands find_bands(const std::vector<cv::Mat>& lit, const cv::Mat& dark,
+                          const ColorResponse& response);
 
 Signature signature_of(const cv::Mat& color, const SignatureBands& bands, const ColorResponse& response);
 

@@ -17,7 +17,8 @@ double darkening(double saturated) {
   return saturated > 0.05 ? 0.55 : 0.8;
 }
 
-double level_of(const CoarseScene& scene, const cv::Mat1b& object, const cv::Mat& color, const ColorResponse& response) {
+double level_of(const CoarseScene& scene, const cv::Mat1b& object, const cv::Mat& color,
+                const ColorResponse& response) {
   const cv::Mat3f cells = at_cells(scene, color, response);
   std::vector<float> values;
   for (int y = 0; y < cells.rows; ++y) {
@@ -34,8 +35,8 @@ double level_of(const CoarseScene& scene, const cv::Mat1b& object, const cv::Mat
 
 }  // namespace
 
-Brightness measure_brightness(const CoarseScene& scene, const cv::Mat1b& object, const std::vector<cv::Mat>& lit,
-                              const ColorResponse& response) {
+Brightness measure_brightness(const CoarseScene& scene, const cv::Mat1b& object,
+                              const std::vector<cv::Mat>& lit, const ColorResponse& response) {
   Brightness seen;
   for (const cv::Mat& color : lit) {
     seen.saturated = std::max(seen.saturated, cv::mean(saturated_cells(scene, color), object)[0]);
@@ -44,8 +45,8 @@ Brightness measure_brightness(const CoarseScene& scene, const cv::Mat1b& object,
   return seen;
 }
 
-std::optional<ExposureSetting> better_exposure(const Brightness& seen, const ExposureSetting& now, const ExposureSetting& start,
-                                        const MeteringLimits& limits) {
+std::optional<ExposureSetting> better_exposure(const Brightness& seen, const ExposureSetting& now,
+                                               const ExposureSetting& start, const MeteringLimits& limits) {
   double factor = 1;
   if (seen.saturated > limits.max_saturated) {
     factor = darkening(seen.saturated);
@@ -54,7 +55,8 @@ std::optional<ExposureSetting> better_exposure(const Brightness& seen, const Exp
   }
   const double wanted = now.time_us * now.gain * factor;
   const double time_us = std::clamp(now.time_us * factor, limits.min_time_us, limits.max_time_us);
-  const double gain = std::clamp(wanted / time_us, start.gain / limits.max_gain_factor, start.gain * limits.max_gain_factor);
+  const double gain =
+      std::clamp(wanted / time_us, start.gain / limits.max_gain_factor, start.gain * limits.max_gain_factor);
   if (std::abs(time_us * gain / (now.time_us * now.gain) - 1) < kLeastChange) return std::nullopt;
   return ExposureSetting{time_us, gain};
 }

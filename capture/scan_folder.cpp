@@ -61,7 +61,8 @@ void sync_file_system(const fs::path& folder) {
 
 }  // namespace
 
-ScanFolder::ScanFolder(const fs::path& folder, bool resume) : target_(without_slash(folder)), place_(target_) {
+ScanFolder::ScanFolder(const fs::path& folder, bool resume)
+    : target_(without_slash(folder)), place_(target_) {
   const bool finished = fs::exists(target_ / kManifest);
   if (finished) place_ = sibling_of(target_);
   const bool begun = fs::exists(place_ / kState);
@@ -69,13 +70,13 @@ ScanFolder::ScanFolder(const fs::path& folder, bool resume) : target_(without_sl
     throw InputError(place_.string(), "holds an unfinished scan",
                      "complete it with --resume, or remove it, or choose another folder");
   }
-  if (finished && resume && !begun) throw UsageError(target_.string() + " is finished: there is nothing to resume");
+  if (finished && resume && !begun)
+    throw UsageError(target_.string() + " is finished: there is nothing to resume");
   if (!begun && !fs::exists(place_ / kLock)) check_stack_folder(target_);
   make_folder(place_);
   lock();
   if (begun) read_unfinished();
   for (const char* sub : {"color", "depth"}) make_folder(place_ / sub);
-  writer_ = std::thread([this] { write_frames(); });
 }
 
 ScanFolder::~ScanFolder() {
@@ -84,7 +85,7 @@ ScanFolder::~ScanFolder() {
     closing_ = true;
   }
   changed_.notify_all();
-  writer_.join();
+  if (writer_.joinable()) writer_.join();
   remove_if_empty();
   ::close(lock_fd_);
 }
@@ -105,7 +106,8 @@ void ScanFolder::lock() {
   const int error = errno;
   ::close(lock_fd_);
   if (error != EWOULDBLOCK) throw_io_error("lock", file, error);
-  throw BusyError(place_.string() + ": another program is scanning into it; wait for it or choose another folder");
+  throw BusyError(place_.string() +
+                  ": another program is scanning into it; wait for it or choose another folder");
 }
 
 void ScanFolder::read_unfinished() {
@@ -135,6 +137,8 @@ void ScanFolder::record(const ScanState& state, const Frame& frame) {
       header_.unknown_keys = scan_keys(state);
     }
     queue_.push_back(frame);
+    // Not before the first frame: the guard of the lamps is forked from a program without threads.
+    if (!writer_.joinable()) writer_ = std::thread([this] { write_frames(); });
   }
   changed_.notify_all();
 }
@@ -179,7 +183,8 @@ void ScanFolder::write_frame(const Frame& frame) {
 }
 
 /// As a whole: the old file or the new one is there at any moment.
-void ScanFolder::write_manifest(const char* name, const LightStack& stack, const std::vector<FrameFiles>& files) const {
+void ScanFolder::write_manifest(const char* name, const LightStack& stack,
+                                const std::vector<FrameFiles>& files) const {
   const fs::path file = place_ / name, fresh = place_ / (std::string(".") + name);
   std::error_code ignored;
   fs::remove(fresh, ignored);

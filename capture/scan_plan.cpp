@@ -17,8 +17,8 @@ std::vector<std::string> color_lamps(const Rig& rig) {
       if (lamp.color == color) ids.push_back(lamp.id);
     }
     if (ids.size() == before) {
-      throw UsageError("the colour shot needs a red, a green and a blue lamp, but rig '" + rig.name + "' has no " +
-                       to_string(color) + " one; scan without it or add the lamp");
+      throw UsageError("the colour shot needs a red, a green and a blue lamp, but rig '" + rig.name +
+                       "' has no " + to_string(color) + " one; scan without it or add the lamp");
     }
   }
   return ids;
@@ -32,7 +32,8 @@ std::optional<int> line_number(const LineAddress& line) {
 }  // namespace
 
 ScanPlan plan_scan(const Rig& rig, int repeats, bool rgb_shot) {
-  if (rig.lamps.empty()) throw UsageError("rig '" + rig.name + "' has no lamp; add [[lamp]] tables to its file");
+  if (rig.lamps.empty())
+    throw UsageError("rig '" + rig.name + "' has no lamp; add [[lamp]] tables to its file");
   ScanPlan plan;
   plan.steps.push_back({});
   for (const RigLamp& lamp : rig.lamps) {

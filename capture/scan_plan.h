@@ -18,7 +18,7 @@ struct ScanStep {
   std::optional<std::string> light;  ///< id in the stack; none: dark
   std::vector<std::string> lamps;    ///< ids in the rig that are lit
   int images = 1;
-  int first_slot = 0;                ///< its images are slots first_slot ... first_slot + images - 1
+  int first_slot = 0;  ///< its images are slots first_slot ... first_slot + images - 1
 };
 
 struct ScanPlan {

@@ -16,8 +16,11 @@ constexpr const char* kKey = "scan";
 json faults_json(const std::vector<LampFault>& faults) {
   json list = json::array();
   for (const LampFault& fault : faults) {
-    list.push_back({{"kind", to_string(fault.kind)}, {"lamp", fault.lamp}, {"other", fault.other},
-                    {"level", fault.level}, {"message", fault.message}});
+    list.push_back({{"kind", to_string(fault.kind)},
+                    {"lamp", fault.lamp},
+                    {"other", fault.other},
+                    {"level", fault.level},
+                    {"message", fault.message}});
   }
   return list;
 }
@@ -43,7 +46,8 @@ std::vector<LampFault> parse_faults(const json& list) {
 }  // namespace
 
 bool ScanState::has_slot(int slot) const {
-  return std::any_of(stack.frames.begin(), stack.frames.end(), [slot](const Frame& f) { return f.index == slot; });
+  return std::any_of(stack.frames.begin(), stack.frames.end(),
+                     [slot](const Frame& f) { return f.index == slot; });
 }
 
 std::string scan_keys(const ScanState& state) {
@@ -59,12 +63,14 @@ ScanState parse_scan_state(LightStack stack, const std::string& subject) {
   ScanState state;
   try {
     const json scan = json::parse(stack.unknown_keys).at(kKey);
-    state.signatures = LitSignatures::parse(scan.at("signatures").dump(), stack.color_response, stack.color_camera.height);
+    state.signatures =
+        LitSignatures::parse(scan.at("signatures").dump(), stack.color_response, stack.color_camera.height);
     state.faults = parse_faults(scan.at("faults"));
     state.repeats = scan.at("repeats").get<int>();
     state.rgb_shot = scan.at("rgb_shot").get<bool>();
   } catch (const std::exception& error) {
-    throw InputError(subject, std::string("is no unfinished scan that can be gone on with (") + error.what() + ")",
+    throw InputError(subject,
+                     std::string("is no unfinished scan that can be gone on with (") + error.what() + ")",
                      "remove the folder and scan again");
   }
   state.stack = std::move(stack);

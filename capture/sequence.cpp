@@ -51,7 +51,7 @@ bool Sequence::still_in_doubt(double last_closes_us) const {
   return newest_closes_us_ < last_closes_us - feed_.timing().period_us / 2;
 }
 
-void Sequence::run(const std::vector<std::size_t>& steps, int images, const TakeFrame& take) {
+ExposureWindow Sequence::run(const std::vector<std::size_t>& steps, int images, const TakeFrame& take) {
   take_ = &take;
   const auto queue = [this](TimedFrame&& frame) {
     newest_closes_us_ = feed_.window(frame.time_us).closes_us;
@@ -59,13 +59,17 @@ void Sequence::run(const std::vector<std::size_t>& steps, int images, const Take
     judge_waiting();
   };
   double closes_us = 0;
+  std::optional<double> opens_us;
   for (const std::size_t step : steps) {
     show(step);
     const int wanted = images > 0 ? images : plan_.steps[step].images;
     const LampLag lag = lag_bounds();
     // Half a margin, so that a frame at the limit, whose time is known to within rounding only, still passes the gate.
-    const double lit_us = static_cast<double>(gate_.newest().after_us) + lag.latest_us + timing_.margin_us / 2;
-    closes_us = feed_.next_window(lit_us).closes_us + (wanted - 1) * feed_.timing().period_us;
+    const double lit_us =
+        static_cast<double>(gate_.newest().after_us) + lag.latest_us + timing_.margin_us / 2;
+    const ExposureWindow window = feed_.next_window(lit_us);
+    if (!opens_us) opens_us = window.opens_us;
+    closes_us = window.closes_us + (wanted - 1) * feed_.timing().period_us;
     feed_.run_until(std::llround(closes_us - lag.earliest_us + timing_.margin_us / 2), queue);
   }
   LampEdge off;
@@ -79,6 +83,7 @@ void Sequence::run(const std::vector<std::size_t>& steps, int images, const Take
     feed_.run_until(feed_.clock().now_us() + std::llround(feed_.timing().period_us / 4), queue);
     judge_waiting();
   }
+  return {opens_us.value_or(closes_us), closes_us};
 }
 
 }  // namespace rakelight

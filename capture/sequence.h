@@ -41,7 +41,8 @@ class Sequence {
   /// Runs these steps in this order, `images` frames each (0: as many as the plan says); all lamps are off at the end.
   /// `take` gets every clean frame, in order, at the latest before this returns.
   /// @throws SensorLost, Cancelled, std::system_error; the caller switches the lamps off
-  void run(const std::vector<std::size_t>& steps, int images, const TakeFrame& take);
+  /// @return from the opening of the first frame that was aimed at to the closing of the last
+  ExposureWindow run(const std::vector<std::size_t>& steps, int images, const TakeFrame& take);
 
  private:
   void show(std::size_t step);

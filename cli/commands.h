@@ -18,6 +18,7 @@ void add_verify_command(CLI::App& program, int& exit_code);
 void add_evaluate_command(CLI::App& program, int& exit_code);
 void add_lights_command(CLI::App& program, int& exit_code);
 void add_doctor_command(CLI::App& program, int& exit_code);
+void add_scan_command(CLI::App& program, int& exit_code);
 void add_table_command(CLI::App& program, int& exit_code);
 
 }  // namespace rakelight::cli

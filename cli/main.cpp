@@ -123,6 +123,7 @@ int run(int argc, char** argv) {
   add_export_command(program, exit_code);
   add_lights_command(program, exit_code);
   add_doctor_command(program, exit_code);
+  add_scan_command(program, exit_code);
 #endif
   add_import_command(program, exit_code);
   add_info_command(program, exit_code);

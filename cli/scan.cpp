@@ -80,18 +80,19 @@ ScanResult scan_with_bar(const Rig& rig, const Arguments& arguments, ScanFolder&
     return !interrupted();
   };
   try {
+    const auto lights = open_lights(rig);  // first: it forks the lamps' guard, before there are threads
     const auto source = open_frame_source(rig);
-    const auto lights = open_lights(rig);
     return capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder), show);
-  } catch (const Cancelled&) {
-    throw Cancelled(kept(folder, arguments));
-  } catch (const SensorLost& lost) { throw DeviceError(std::string(lost.what()) + "; " + kept(folder, arguments)); }
+  } catch (const Cancelled&) { throw Cancelled(kept(folder, arguments)); } catch (const SensorLost& lost) {
+    throw DeviceError(std::string(lost.what()) + "; " + kept(folder, arguments));
+  }
 }
 
 void put_mask(LightStack& stack, const std::string& mask) {
   if (mask.empty()) return;
   stack.mask = mask == "auto" ? auto_mask(stack) : read_mask(mask);
-  if (stack.mask.empty()) spdlog::warn("scan: no object stands out in depth and light, so the stack has no mask");
+  if (stack.mask.empty())
+    spdlog::warn("scan: no object stands out in depth and light, so the stack has no mask");
 }
 
 RefineResult refine_with_bar(const LightStack& stack) {
@@ -102,14 +103,14 @@ RefineResult refine_with_bar(const LightStack& stack) {
   });
 }
 
-double rounded(double value, double step) { return std::round(value / step) * step; }
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
 
 json faults_json(const std::vector<LampFault>& faults) {
   json list = json::array();
   for (const LampFault& fault : faults) {
     json entry = {{"kind", to_string(fault.kind)}, {"lamp", fault.lamp}};
     if (!fault.other.empty()) entry["other"] = fault.other;
-    entry["level"] = rounded(fault.level, 0.001);
+    entry["level"] = rounded(fault.level, 1000);
     entry["message"] = fault.message;
     list.push_back(std::move(entry));
   }
@@ -121,11 +122,11 @@ json report_json(const ScanResult& scan, const Arguments& arguments) {
   return {{"stack", arguments.output.string()},
           {"lights", stack.lights.size()},
           {"frames", stack.frames.size()},
-          {"sensor_time_ms", rounded(scan.sensor_time_us / 1000, 0.1)},
-          {"lag_ms", rounded(scan.lag_us / 1000, 0.01)},
+          {"sensor_time_ms", rounded(scan.sensor_time_us / 1000, 10)},
+          {"lag_ms", rounded(scan.lag_us / 1000, 100)},
           {"exposure_us", stack.exposure_us.value_or(0)},
           {"gain", stack.gain.value_or(0)},
-          {"saturated_share", rounded(scan.saturated, 1e-5)},
+          {"saturated_share", rounded(scan.saturated, 1e5)},
           {"retaken", scan.retaken},
           {"dropped", scan.dropped},
           {"faults", faults_json(scan.faults)},
@@ -134,13 +135,13 @@ json report_json(const ScanResult& scan, const Arguments& arguments) {
 
 void print_report(const ScanResult& scan, const Arguments& arguments) {
   const LightStack& stack = scan.stack;
-  std::printf("%s: %zu lights, %zu frames, colour %dx%d, depth %dx%d\n", arguments.output.c_str(), stack.lights.size(),
-              stack.frames.size(), stack.color_camera.width, stack.color_camera.height, stack.depth_camera.width,
-              stack.depth_camera.height);
+  std::printf("%s: %zu lights, %zu frames, colour %dx%d, depth %dx%d\n", arguments.output.c_str(),
+              stack.lights.size(), stack.frames.size(), stack.color_camera.width, stack.color_camera.height,
+              stack.depth_camera.width, stack.depth_camera.height);
   std::printf("  sequence  %.0f ms of sensor time, %d images taken again, %d frames dropped\n",
               scan.sensor_time_us / 1000, scan.retaken, scan.dropped);
-  std::printf("  exposure  %.1f ms, gain %g: %.2f %% of the object saturated\n", stack.exposure_us.value_or(0) / 1000,
-              stack.gain.value_or(0), scan.saturated * 100);
+  std::printf("  exposure  %.1f ms, gain %g: %.2f %% of the object saturated\n",
+              stack.exposure_us.value_or(0) / 1000, stack.gain.value_or(0), scan.saturated * 100);
   std::fflush(stdout);
 }
 
@@ -179,10 +180,13 @@ void add_scan_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = program.add_subcommand("scan", "Run the light sequence on a sensor and write a stack");
   command->footer(kFooter);
-  command->add_option("-o,--output", arguments->output, "Stack folder to write")->required()->type_name("STACK");
+  command->add_option("-o,--output", arguments->output, "Stack folder to write")
+      ->required()
+      ->type_name("STACK");
   command->add_option("--rig", arguments->rig, "What stands on the table; default: the virtual rig")
       ->type_name("RIG.toml");
-  command->add_option("--refine", arguments->refined, "Refine, too, and write the result here")->type_name("OUT");
+  command->add_option("--refine", arguments->refined, "Refine, too, and write the result here")
+      ->type_name("OUT");
   command
       ->add_option("--mask", arguments->mask,
                    "Mask image (255 = object), or auto: what is lit and stands in the middle by depth.\n"
@@ -191,11 +195,13 @@ void add_scan_command(CLI::App& program, int& exit_code) {
   command->add_flag("--resume", arguments->resume, "Complete an unfinished scan, if there is one");
   command->add_option("--repeats", arguments->repeats, "Images a lamp, instead of what the rig file says")
       ->check(CLI::Range(1, 64));
-  command->add_flag("--rgb,!--no-rgb", arguments->rgb_shot,
-                    "One image under the red, green and blue lamps at once, or none");
+  command->add_flag_function(
+      "--rgb,!--no-rgb", [arguments](std::int64_t count) { arguments->rgb_shot = count > 0; },
+      "One image under the red, green and blue lamps at once, or none");
   command->add_option("--depth-frames", arguments->depth_frames, "Depth frames kept an image; default: 2")
       ->check(CLI::Range(1, 8));
-  command->add_flag("--no-metering", arguments->no_metering, "Take the rig file's exposure and gain as they are");
+  command->add_flag("--no-metering", arguments->no_metering,
+                    "Take the rig file's exposure and gain as they are");
   command->add_flag("--json", arguments->json, "Print one JSON object on stdout and nothing else there");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -107,7 +107,9 @@ TEST(Capture, TwelveLampsOnASlowBoardTakeThreeFramePeriodsEachAtThirtyMillisecon
 /// Whatever rig: latencies of lamps and transport from 0 to 80 ms, jitter, one frame in twenty lost.
 SimulatedRigOptions any_world(unsigned seed) {
   std::mt19937 random(seed);
-  const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+  const auto uniform = [&](double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+  };
   SimulatedRigOptions world;
   world.seed = seed;
   world.exposure_us = uniform(4000, 33000);

@@ -65,11 +65,13 @@ int times_named(Kind kind, const Break& break_lamp) {
 }
 
 TEST(LampFaults, NamesALampThatIsStuckOn) {
-  EXPECT_EQ(times_named(Kind::stuck_on, [](auto& world, const auto& lamp) { world.stuck_on = {lamp}; }), kTrials);
+  EXPECT_EQ(times_named(Kind::stuck_on, [](auto& world, const auto& lamp) { world.stuck_on = {lamp}; }),
+            kTrials);
 }
 
 TEST(LampFaults, NamesALampThatGivesNoLight) {
-  EXPECT_EQ(times_named(Kind::no_light, [](auto& world, const auto& lamp) { world.stuck_off = {lamp}; }), kTrials);
+  EXPECT_EQ(times_named(Kind::no_light, [](auto& world, const auto& lamp) { world.stuck_off = {lamp}; }),
+            kTrials);
 }
 
 TEST(LampFaults, NamesABurntOutLampInABrightRoomWhichLooksLikeAStuckOne) {

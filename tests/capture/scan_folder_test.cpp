@@ -22,7 +22,8 @@ using test::SimulatedRig;
 using test::SimulatedRigOptions;
 
 /// Scans into `folder`; whatever ends the scan is passed on when all frames are written.
-ScanResult scan_into(ScanFolder& folder, SimulatedRig& simulated, const Rig& rig, const ScanProgressCallback& progress = {}) {
+ScanResult scan_into(ScanFolder& folder, SimulatedRig& simulated, const Rig& rig,
+                     const ScanProgressCallback& progress = {}) {
   ScanOptions options;
   options.resume = folder.unfinished();
   options.on_frame = [&](const ScanState& state, const Frame& frame) { folder.record(state, frame); };
@@ -52,8 +53,8 @@ class ScanFolderTest : public testing::Test {
 std::string names_of(const LightStack& stack) {
   std::string names;
   for (const Frame& frame : stack.frames) {
-    names += std::to_string(frame.index) + ":" + frame.light.value_or("dark") + (frame.color.empty() ? " " : "c") +
-             (frame.depth.empty() ? " " : "d") + " ";
+    names += std::to_string(frame.index) + ":" + frame.light.value_or("dark") +
+             (frame.color.empty() ? " " : "c") + (frame.depth.empty() ? " " : "d") + " ";
   }
   return names;
 }
@@ -110,7 +111,8 @@ TEST_F(ScanFolderTest, AScanThatIsStoppedAtAnyMomentLeavesTheLampsOffAndCanBeRes
     int asked = 0;
     ScanFolder folder(target, true);
     try {
-      folder.finish(scan_into(folder, simulated, rig, [&](const ScanProgress&) { return ++asked < asked_at; }).stack);
+      folder.finish(
+          scan_into(folder, simulated, rig, [&](const ScanProgress&) { return ++asked < asked_at; }).stack);
       break;
     } catch (const Cancelled&) { EXPECT_TRUE(simulated.lit_now().empty()); }
   }
@@ -146,7 +148,8 @@ TEST_F(ScanFolderTest, SecondWritersFoldersOfOthersAndForgottenResumesAreRefused
     EXPECT_THROW(ScanFolder(target, true), BusyError);
     EXPECT_THROW(scan_into(folder, simulated, rig), SensorLost);
   }
-  EXPECT_THAT(test::message_of<InputError>([&] { ScanFolder(target, false); }), testing::HasSubstr("--resume"));
+  EXPECT_THAT(test::message_of<InputError>([&] { ScanFolder(target, false); }),
+              testing::HasSubstr("--resume"));
   fs::create_directory(temporary.path() / "mine");
   std::ofstream(temporary.path() / "mine" / "letter.txt") << "dear";
   EXPECT_THROW(ScanFolder(temporary.path() / "mine", false), InputError);
@@ -177,7 +180,8 @@ TEST_F(ScanFolderTest, ADamagedStateIsNamed) {
     EXPECT_THROW(scan_into(folder, simulated, rig), SensorLost);
   }
   fs::resize_file(target / "scan.json", fs::file_size(target / "scan.json") / 2);
-  EXPECT_THAT(test::message_of<InputError>([&] { ScanFolder(target, true); }), testing::HasSubstr("scan.json"));
+  EXPECT_THAT(test::message_of<InputError>([&] { ScanFolder(target, true); }),
+              testing::HasSubstr("scan.json"));
 }
 
 }  // namespace

@@ -43,8 +43,13 @@ struct SimulatedRig::World {
   };
 
   World(SimulatedRig& owner, const Rig& rig_, const SimulatedRigOptions& options_)
-      : clock(owner.clock), rig(rig_), options(options_), random(options_.seed), edges(rig_.lamps.size()),
-        written(rig_.lamps.size(), false), start_us(double(owner.clock.now_us()) + options_.phase_us) {
+      : clock(owner.clock),
+        rig(rig_),
+        options(options_),
+        random(options_.seed),
+        edges(rig_.lamps.size()),
+        written(rig_.lamps.size(), false),
+        start_us(double(owner.clock.now_us()) + options_.phase_us) {
     exposure_us = options.exposure_us;
     make_scene();
     std::normal_distribution<float> normal(0, float(options.noise));
@@ -84,10 +89,14 @@ struct SimulatedRig::World {
 
   static cv::Vec3f color_of(LampColor color) {
     switch (color) {
-      case LampColor::red: return {1, 0.05F, 0};
-      case LampColor::green: return {0.05F, 1, 0.05F};
-      case LampColor::blue: return {0, 0.05F, 1};
-      default: return {1, 1, 1};
+      case LampColor::red:
+        return {1, 0.05F, 0};
+      case LampColor::green:
+        return {0.05F, 1, 0.05F};
+      case LampColor::blue:
+        return {0, 0.05F, 1};
+      default:
+        return {1, 1, 1};
     }
   }
 
@@ -157,7 +166,8 @@ struct SimulatedRig::World {
         cv::Vec3f value = albedo(y, x) * float(options.ambient);
         for (const auto& [k, share] : lit) value += pictures[k](y, x) * share;
         for (int c = 0; c < 3; ++c)
-          image(y, x)[c] = cv::saturate_cast<uchar>(255 * (value[c] * float(scale) + noise[noise_at++ % noise.size()]));
+          image(y, x)[c] =
+              cv::saturate_cast<uchar>(255 * (value[c] * float(scale) + noise[noise_at++ % noise.size()]));
       }
     }
     return std::move(image);
@@ -174,7 +184,7 @@ struct SimulatedRig::World {
   Camera camera;
   cv::Mat1w depth;
   cv::Mat3f albedo;
-  std::vector<cv::Mat3f> pictures;  ///< of each lamp alone
+  std::vector<cv::Mat3f> pictures;   ///< of each lamp alone
   std::array<float, 16381> noise{};  ///< a prime number, so that no frame repeats another's
   bool unplugged = false;
   int delivered = 0;
@@ -217,7 +227,8 @@ class SimulatedSource : public FrameSource {
     const std::int64_t until = world_.clock.now_us() + timeout.count() * 1000;
     if (world_.unplugged || next.arrives_us > until || unplugs(next)) {
       world_.clock.sleep_until(until);
-      if (world_.unplugged && stream == Stream::color && ++silent_ > 20) throw SensorLost("the simulated sensor is gone");
+      if (world_.unplugged && stream == Stream::color && ++silent_ > 20)
+        throw SensorLost("the simulated sensor is gone");
       return std::nullopt;
     }
     world_.clock.sleep_until(next.arrives_us);
@@ -276,7 +287,8 @@ class SimulatedBank : public LineBank {
 }  // namespace
 
 SimulatedRig::SimulatedRig(const Rig& rig, const SimulatedRigOptions& options)
-    : world_(std::make_shared<World>(*this, rig, options)), source_(std::make_unique<SimulatedSource>(*world_)) {
+    : world_(std::make_shared<World>(*this, rig, options)),
+      source_(std::make_unique<SimulatedSource>(*world_)) {
   std::vector<std::string> ids;
   for (const RigLamp& lamp : rig.lamps) ids.push_back(lamp.id);
   lights_ = std::make_unique<Lights>(ids, std::make_unique<SimulatedBank>(world_));
@@ -307,7 +319,8 @@ bool SimulatedRig::lit_only_by(std::int64_t device_us, const std::set<std::strin
     if (world_->device_us(k) == device_us) frame = k;
   }
   if (frame < 0) return false;
-  const double opens = world_->opens_us(frame), closes = opens + world_->options.readout_us + world_->exposure_us;
+  const double opens = world_->opens_us(frame),
+               closes = opens + world_->options.readout_us + world_->exposure_us;
   for (std::size_t k = 0; k < world_->rig.lamps.size(); ++k) {
     const double wanted = lamps.count(world_->rig.lamps[k].id) != 0 ? 1 : 0;
     if (std::abs(world_->lit_share(k, opens, closes) - wanted) > 1e-9) return false;

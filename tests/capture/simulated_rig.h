@@ -22,13 +22,13 @@ namespace rakelight::test {
 struct SimulatedRigOptions {
   int width = 32, height = 24;
   double exposure_us = 8000, readout_us = 30000, period_us = 33333;
-  double phase_us = 0;             ///< of the first frame
-  double device_offset_us = 5e6;   ///< device clock less host clock
-  double device_drift = 0;         ///< device clock's rate less 1
+  double phase_us = 0;            ///< of the first frame
+  double device_offset_us = 5e6;  ///< device clock less host clock
+  double device_drift = 0;        ///< device clock's rate less 1
   double lamp_latency_us = 2000, lamp_jitter_us = 0;
   double delivery_latency_us = 15000, delivery_jitter_us = 2000;
   double drop_share = 0, repeat_share = 0;
-  double board_us = 200;           ///< a write of the lamp board takes this long
+  double board_us = 200;  ///< a write of the lamp board takes this long
   double ambient = 0.02, brightness = 0.6, noise = 0.003;
   int unplug_at_frame = -1;
   int reset_clock_at_frame = -1;
