@@ -8,6 +8,7 @@
 
 #include "capture/oni_file.h"
 #include "capture/openni_device.h"
+#include "capture/openni_session.h"
 #include "simulate/virtual_sensor/driver/protocol.h"
 #include "stack/errors.h"
 

@@ -24,7 +24,8 @@ void require_openni() {
   static Library library;
   if (!library.started) library.started = openni::OpenNI::initialize() == openni::STATUS_OK;
   if (library.started) return;
-  throw openni_error(std::errc::no_such_device, "cannot start OpenNI2", "rakelight doctor says what is missing");
+  throw openni_error(std::errc::no_such_device, "cannot start OpenNI2",
+                     "rakelight doctor says what is missing");
 }
 
 std::system_error openni_error(std::errc code, const std::string& attempt, const std::string& cure) {
