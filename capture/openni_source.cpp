@@ -10,6 +10,7 @@
 #include "capture/frame_queue.h"
 #include "capture/openni_device.h"
 #include "capture/openni_modes.h"
+#include "capture/openni_session.h"
 
 namespace rakelight {
 namespace {
