@@ -4,11 +4,24 @@
 
 #include <OpenNI.h>
 
+#include <atomic>
+
 #include "capture/openni_session.h"
 #include "capture/virtual_sensor.h"
 #include "simulate/virtual_sensor/driver/protocol.h"
 
 namespace rakelight {
+namespace {
+
+/// As on a real bus, a device that has been unplugged comes back at another address: the library opens none twice.
+std::atomic<int> unplugged{0};
+
+std::string virtual_uri() {
+  const int times = unplugged;
+  return driver_protocol::kVirtualUri + (times > 0 ? "-" + std::to_string(times) : "");
+}
+
+}  // namespace
 
 OpenniDevice::OpenniDevice(const std::string& uri) {
   require_openni();
@@ -24,9 +37,13 @@ bool OpenniDevice::set_property(int id, const void* data, std::size_t size) {
   return device_->setProperty(id, data, static_cast<int>(size)) == openni::STATUS_OK;
 }
 
+void note_unplugged(const std::string& uri) {
+  if (uri == virtual_uri()) ++unplugged;
+}
+
 std::unique_ptr<OpenniDevice> open_openni_device(const Rig& rig) {
   if (!rig.virtual_rig) return std::make_unique<OpenniDevice>(rig.sensor.uri);
-  auto device = std::make_unique<OpenniDevice>(driver_protocol::kVirtualUri);
+  auto device = std::make_unique<OpenniDevice>(virtual_uri());
   const std::string text = virtual_sensor_text(rig);
   if (!device->set_property(driver_protocol::kSetup, text.data(), text.size())) {
     throw openni_error(std::errc::invalid_argument, "cannot set up the virtual sensor",

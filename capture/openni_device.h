@@ -30,6 +30,9 @@ class OpenniDevice {
   std::unique_ptr<openni::Device> device_;
 };
 
+/// To be told of a device that has been unplugged, so that a virtual one can be opened anew.
+void note_unplugged(const std::string& uri);
+
 /// The rig's sensor; a virtual one is told what the rig says and has rendered its scene when this returns.
 std::unique_ptr<OpenniDevice> open_openni_device(const Rig& rig);
 

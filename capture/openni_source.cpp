@@ -152,6 +152,7 @@ void OpenniSource::describe_device(const RigCalibration& calibration) {
 
 void OpenniSource::onDeviceDisconnected(const openni::DeviceInfo* info) {
   if (uri_ != info->getUri()) return;
+  note_unplugged(uri_);
   color_.queue.mark_lost();
   depth_.queue.mark_lost();
 }

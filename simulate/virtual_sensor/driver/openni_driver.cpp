@@ -19,10 +19,7 @@ class Driver : public oni::driver::DriverBase {
   explicit Driver(OniDriverServices* services) : DriverBase(services) {}
 
   OniStatus tryDevice(const char* uri) override {
-    if (std::strcmp(uri, driver_protocol::kVirtualUri) != 0 &&
-        std::strcmp(uri, driver_protocol::kFeedUri) != 0) {
-      return ONI_STATUS_ERROR;
-    }
+    if (!is_virtual(uri) && std::strcmp(uri, driver_protocol::kFeedUri) != 0) return ONI_STATUS_ERROR;
     const OniDeviceInfo info = device_info(uri);
     deviceConnected(&info);
     return ONI_STATUS_OK;
@@ -31,7 +28,7 @@ class Driver : public oni::driver::DriverBase {
   oni::driver::DeviceBase* deviceOpen(const char* uri, const char*) override {
     if (std::strcmp(uri, driver_protocol::kFeedUri) == 0) return new FeedDevice();
     return new VirtualDevice(
-        [this] { disconnect(driver_protocol::kVirtualUri); },
+        [this, address = std::string(uri)] { disconnect(address.c_str()); },
         [this](const std::string& line) { getServices().errorLoggerAppend("%s", line.c_str()); });
   }
 
@@ -42,6 +39,8 @@ class Driver : public oni::driver::DriverBase {
   void* enableFrameSync(oni::driver::StreamBase**, int) override { return this; }
 
  private:
+  static bool is_virtual(const std::string& uri) { return uri.rfind(driver_protocol::kVirtualUri, 0) == 0; }
+
   void disconnect(const char* uri) {
     const OniDeviceInfo info = device_info(uri);
     deviceDisconnected(&info);

@@ -10,6 +10,7 @@
 namespace rakelight::driver_protocol {
 
 /// A virtual sensor that looks at a simulated scene under virtual lamps. It is found by this address only, never by search.
+/// Any address that begins so is a virtual rig.
 constexpr const char* kVirtualUri = "rakelight-virtual";
 /// A device whose frames the program itself hands in, so that OpenNI2's recorder can write them.
 constexpr const char* kFeedUri = "rakelight-feed";
