@@ -108,7 +108,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
     state.points = surface_points(problem.grid, state.zeta);
 
-    lamps.update(images, state, t);  // Eq. (26)
+    lamps.update(problem, prior, state, t);  // Eq. (26)
     if (t == 1) require_three_directions(images, state, result);
     state.albedo = estimate_albedo(images, state);  // Eq. (27)
     normalize_albedo(state);

@@ -66,7 +66,7 @@ Eigen::Matrix<double, 3, 5> second_order_rows(const Lamp& lamp) {
 }
 
 std::vector<LightEstimate> light_estimates(const Observations& images, const SurfaceState& state) {
-  const std::vector<LampUncertainty> uncertainty = near_lamp_uncertainty(images, state, {});
+  const std::vector<LampUncertainty> uncertainty = near_lamp_uncertainty(images, nullptr, {}, state);
   std::vector<LightEstimate> estimates;
   for (size_t i = 0; i < state.lamps.size(); ++i) {
     const Lamp& lamp = state.lamps[i];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "refine/steps/albedo.h"
 #include "refine/steps/lighting.h"
 #include "refine/steps/robust_weights.h"
 #include "stack/errors.h"
@@ -18,9 +19,7 @@ constexpr int kFirstNear =
 constexpr int kChoice = 10;  // outer iteration: the near fit has settled enough to be compared
 constexpr float kStartInverseDistance = 1.0f;  // 1/m; 0.5, 1 and 2 m were seen to reach the same point
 constexpr double kClearlyBetter = 1.02;        // far residual / near residual above which near lamps stay
-
-/// The alternation of lamps and shape creeps towards the right distance: going twice as far halves the iterations.
-constexpr float kOverRelaxation = 2.0f;
+constexpr int kSearchRounds = 4;  // of lamps and albedo in turn
 constexpr float kMaxInverseDistance = 10.0f;
 constexpr double kSettledTurn = 2e-4;  // radians an iteration
 
@@ -65,7 +64,8 @@ LampEstimator::LampEstimator(const LampOptions& options) : options_(options) {
   if (options.harmonics == 2) explanation_ = "far lamps with second-order harmonics: asked for";
 }
 
-void LampEstimator::update(const Observations& images, SurfaceState& state, int iteration) {
+void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior, SurfaceState& state, int iteration) {
+  const Observations& images = problem.images;
   const int first_near = options_.positions == LampPositions::estimated ? kFirstNear : 2;
   const bool may_be_near = options_.model != LampModel::far && options_.harmonics == 1;
   if (may_be_near && iteration == first_near) start_near(images, state);
@@ -77,15 +77,10 @@ void LampEstimator::update(const Observations& images, SurfaceState& state, int 
   fit.max_inverse_distance = kMaxInverseDistance;
   fit.fixed_positions = options_.positions == LampPositions::fixed;
   const std::vector<Lamp> before = state.lamps;
-  state.lamps = estimate_near_lamps(images, state, fit);
-  const int since = iteration - first_near;
-  if (!fit.fixed_positions && since >= 2 && iteration <= options_.settle_after) {
-    for (size_t i = 0; i < before.size(); ++i) {
-      float& kappa = state.lamps[i].inverse_distance;
-      const float old = before[i].inverse_distance;
-      kappa = std::clamp(old + kOverRelaxation * (kappa - old), 0.0f, kMaxInverseDistance);
-    }
-  }
+  const BroadShape shape{problem.grid, prior};
+  state.zeta += fit_near_lamps(images, &shape, fit, state);
+  state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
+  state.points = surface_points(problem.grid, state.zeta);
   settled_ = turn_at_rim(before, state.lamps, object_radius(state)) < kSettledTurn;
   if (options_.model == LampModel::automatic && iteration == kChoice) choose(images, state);
 }
@@ -103,6 +98,13 @@ void LampEstimator::start_near(const Observations& images, SurfaceState& state) 
                        "give it one, or let positions be estimated (--lamp-positions estimated)");
     }
     lamp = at_position(lamp, *images.lamp_positions[i], state.scene);
+  }
+  if (options_.positions != LampPositions::estimated) return;
+  state.weight = usable_weights(images);
+  state.albedo.setOnes();
+  for (int round = 0; round < kSearchRounds; ++round) {
+    state.lamps = search_near_lamps(images, state);
+    state.albedo = estimate_albedo(images, state);
   }
 }
 

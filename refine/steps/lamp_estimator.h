@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "refine/observations.h"
+#include "refine/problem.h"
 #include "refine/options.h"
 #include "refine/steps/near_lamps.h"
 #include "refine/surface_state.h"
@@ -23,7 +23,7 @@ class LampEstimator {
 
   /// Estimates the state's lamps for outer iteration `iteration` (from 1). Call it in order.
   /// @throws InputError when positions are to be taken from the stack and a lamp has none
-  void update(const Observations& images, SurfaceState& state, int iteration);
+  void update(const RefineProblem& problem, const DepthPrior& prior, SurfaceState& state, int iteration);
 
   /// Whether the last update moved the lamps too little to matter.
   bool settled() const { return settled_; }
