@@ -81,6 +81,7 @@ void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior
   state.zeta += fit_near_lamps(images, &shape, fit, state);
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
+  state.albedo = estimate_albedo(images, state);  // the fit eliminated it: the old one knows nothing of these lamps
   settled_ = turn_at_rim(before, state.lamps, object_radius(state)) < kSettledTurn;
   if (options_.model == LampModel::automatic && iteration == kChoice) choose(images, state);
 }

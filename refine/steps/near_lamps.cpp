@@ -344,7 +344,7 @@ void lock_unknowns(const Unknowns& at, bool fixed_positions, bool hold_shape, Eq
     }
   }
   for (Eigen::Index k = 0; k < kShared; ++k)
-    if ((k >= kAim && hold_shape)) lock(equations, kLamp * images + k);
+    if (k < kAim ? fixed_positions : hold_shape) lock(equations, kLamp * images + k);
 }
 
 Unknowns moved(const Unknowns& at, const Eigen::VectorXd& step, float max_inverse_distance) {
