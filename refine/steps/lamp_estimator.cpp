@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kFirstNear =
     4;                       // outer iteration: far lamps of a noisy shape are good enough as a start by then
-constexpr int kChoice = 10;  // outer iteration: the near fit has settled enough to be compared
+constexpr int kChoice = 8;   // outer iteration: the near fit has settled enough to be compared
 constexpr float kStartInverseDistance = 1.0f;  // 1/m; 0.5, 1 and 2 m were seen to reach the same point
 constexpr double kClearlyBetter = 1.02;        // far residual / near residual above which near lamps stay
 constexpr int kSearchRounds = 4;  // of lamps and albedo in turn
@@ -88,6 +88,7 @@ void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior
 
 void LampEstimator::start_near(const Observations& images, SurfaceState& state) {
   near_ = true;
+  far_state_ = state;
   explanation_ = "near lamps: asked for";
   for (size_t i = 0; i < state.lamps.size(); ++i) {
     Lamp& lamp = state.lamps[i];
@@ -119,7 +120,9 @@ void LampEstimator::choose(const Observations& images, SurfaceState& state) {
   far_over_near_ = near_scale > 0 ? far_scale / near_scale : 1;
   near_ = far_over_near_ > kClearlyBetter;
   settled_ = settled_ || !near_;
-  if (!near_) state.lamps = far.lamps;
+  if (!near_) {
+    state = std::move(far_state_);
+  }
   explanation_ = with_number(near_ ? "near lamps: the far model's residual is %.2f times as large"
                                    : "far lamps: the near model fits no better (far / near residual %.2f)",
                              far_over_near_);

@@ -39,6 +39,7 @@ class LampEstimator {
   void choose(const Observations& images, SurfaceState& state);
 
   LampOptions options_;
+  SurfaceState far_state_;  ///< what the far lamps had reached when near ones took over
   bool near_ = false;
   bool settled_ = true;
   double far_over_near_ = 0;
