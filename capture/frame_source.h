@@ -9,10 +9,10 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "stack/errors.h"
 #include "stack/stack.h"
 
 namespace rakelight {
@@ -45,9 +45,8 @@ struct ExposureLock {
 };
 
 /// Raised by next() when the sensor has gone: unplugged, or silent for longer than the stall limit. Exit code 4.
-class SensorLost : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
+class SensorLost : public DeviceError {
+  using DeviceError::DeviceError;
 };
 
 class FrameSource {

@@ -12,9 +12,14 @@ namespace rakelight::cli {
 void add_refine_command(CLI::App& program, int& exit_code);
 void add_simulate_command(CLI::App& program, int& exit_code);
 void add_import_command(CLI::App& program, int& exit_code);
+void add_export_command(CLI::App& program, int& exit_code);
 void add_info_command(CLI::App& program, int& exit_code);
 void add_verify_command(CLI::App& program, int& exit_code);
 void add_evaluate_command(CLI::App& program, int& exit_code);
+void add_calibrate_command(CLI::App& program, int& exit_code);
+void add_lights_command(CLI::App& program, int& exit_code);
+void add_doctor_command(CLI::App& program, int& exit_code);
+void add_scan_command(CLI::App& program, int& exit_code);
 void add_table_command(CLI::App& program, int& exit_code);
 
 }  // namespace rakelight::cli

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "refine/output/error_plots.h"
 #include "refine/output/result_io.h"
 #include "stack/stack_io.h"
 
@@ -18,7 +19,7 @@ namespace rakelight::cli {
 namespace {
 
 struct Arguments {
-  std::filesystem::path result, truth;
+  std::filesystem::path result, truth, plots;
   bool json = false;
 };
 
@@ -26,6 +27,7 @@ constexpr const char* kFooter = R"(Examples:
   rakelight evaluate my-surface --truth my-scan           errors of a refined simulated scan
   rakelight evaluate my-surface --truth my-scan/truth     the same
   rakelight evaluate my-surface --truth my-scan --json    for scripts
+  rakelight evaluate my-surface --truth my-scan --plots figures    error maps and histograms as PNG
 
 RMSE: of depth. Unbiased: after removing the mean error. MAE and median: angles between the true normals and those
 of depth by forward differences; own: of normals.tiff. Error bars: share of errors inside one standard deviation of
@@ -58,6 +60,9 @@ void run(const Arguments& arguments) {
   std::optional<ErrorBarReport> bars;
   if (!result.uncertainty.empty())
     bars = evaluate_error_bars(result.camera, result.depth, result.normals, result.uncertainty, truth);
+  if (!arguments.plots.empty())
+    write_error_plots(error_maps(result.camera, result.initial_depth, truth),
+                      error_maps(result.camera, result.depth, truth), arguments.plots);
   if (arguments.json) {
     auto json = json_of(after);
     json["before"] = json_of(before);
@@ -70,7 +75,8 @@ void run(const Arguments& arguments) {
   print_row("after", after);
   if (!bars) return;
   char line[160];
-  std::snprintf(line, sizeof line, "error bars hold %.0f %% of the depth errors and %.0f %% of the normals'\n",
+  std::snprintf(line, sizeof line,
+                "error bars hold %.0f %% of the depth errors and %.0f %% of the normals'\n",
                 100 * bars->depth_within, 100 * bars->normal_within);
   std::cout << line;
 }
@@ -84,6 +90,8 @@ void add_evaluate_command(CLI::App& program, int& exit_code) {
   command->add_option("OUT", arguments->result, "Result folder")->required();
   command->add_option("--truth", arguments->truth, "Stack that has a truth/ folder, or that folder")
       ->required()
+      ->type_name("DIR");
+  command->add_option("--plots", arguments->plots, "Folder for figures of the errors before and after (PNG)")
       ->type_name("DIR");
   command->add_flag("--json", arguments->json, "Print one JSON object on stdout and nothing else there");
   command->callback([arguments, &exit_code] {

@@ -77,6 +77,8 @@ int parse_and_run(CLI::App& program, int argc, char** argv) {
     return report(kIo, program, error.what());
   } catch (const std::filesystem::filesystem_error& error) {
     return report(kIo, program, error.what());
+  } catch (const DeviceError& error) {
+    return report(kDevice, program, error.what());
   } catch (const Cancelled& cancelled) {
     return report(kCancelled, program, cancelled.what());
   } catch (const std::system_error& error) {
@@ -116,6 +118,13 @@ int run(int argc, char** argv) {
   add_table_command(program, exit_code);
 #ifdef RAKELIGHT_HAS_SIMULATE
   add_simulate_command(program, exit_code);
+#endif
+#ifdef RAKELIGHT_HAS_CAPTURE
+  add_calibrate_command(program, exit_code);
+  add_export_command(program, exit_code);
+  add_lights_command(program, exit_code);
+  add_doctor_command(program, exit_code);
+  add_scan_command(program, exit_code);
 #endif
   add_import_command(program, exit_code);
   add_info_command(program, exit_code);

@@ -108,7 +108,8 @@ void print_report(const RefineResult& result, const std::filesystem::path& folde
             << folder.string() << ": " << result.camera.width << "x" << result.camera.height << " (scale "
             << result.scale << "), " << result.iterations.size() << " iterations\n"
             << "  surface  " << (folder / "mesh.ply").string() << "\n"
-            << "  picture  " << (folder / "before_after.png").string() << "\n";
+            << "  picture  " << (folder / "before_after.png").string() << "\n"
+            << "  report   " << (folder / "report.html").string() << "\n";
 }
 
 int run(const Arguments& arguments) {
@@ -119,7 +120,7 @@ int run(const Arguments& arguments) {
   const RefineResult result = refine_with_bar(stack, options);
   if (interrupted()) throw Cancelled();
   for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
-  write_result(result, arguments.output);
+  write_result(result, arguments.output, &stack);
   arguments.json ? print_json(result, arguments.output) : print_report(result, arguments.output);
   if (result.termination != Termination::diverged) return 0;
   spdlog::warn("refine: did not converge: {}", result.message);

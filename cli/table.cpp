@@ -127,7 +127,7 @@ void add_stack(const fs::path& folder, const Arguments& arguments, const std::ve
     if (!run.result) continue;
     table.rows.front().cells.back() = input_cell(*run.result, truth);
     if (arguments.output.empty()) continue;
-    write_result(*run.result, arguments.output / name / variants[k].slug);
+    write_result(*run.result, arguments.output / name / variants[k].slug, &stack);
     if (pictures.empty()) pictures.push_back(input_row(stack, *run.result));
     pictures.push_back(result_row(variants[k], *run.result));
   }

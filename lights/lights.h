@@ -18,17 +18,21 @@ namespace rakelight {
 
 /// A bank of output lines that take logical levels (true = lamp lit; active-low is the backend's business).
 class LineBank {
-public:
+ public:
   virtual ~LineBank() = default;
   virtual std::size_t size() const = 0;
   /// Sets every line. `lit.size() == size()`. @throws std::system_error naming what was attempted on which line.
   virtual void write(const std::vector<bool>& lit) = 0;
+  /// Sets at least the lines that differ from the last write. A bank on which every line costs time (a USB adapter
+  /// takes milliseconds for each) leaves the others alone. @throws as write()
+  virtual void write_changes(const std::vector<bool>& lit) { write(lit); }
 };
 
-/// When a lamp was switched, on the host's monotonic clock, in microseconds: the edge lies between the two.
+/// When lamps were switched, on the host's monotonic clock, in microseconds: every edge, of the old lamps going off
+/// and of the new ones coming on, lies between the two.
 struct SwitchTime {
-  std::int64_t before_us = 0;  ///< before the call that switches
-  std::int64_t after_us = 0;   ///< after it has returned
+  std::int64_t before_us = 0;  ///< before the first line is written
+  std::int64_t after_us = 0;   ///< after the last one has been
 };
 
 struct LightsOptions {
@@ -37,21 +41,24 @@ struct LightsOptions {
 
 /// Lamps by name over a bank. Thread-safe. Off on construction and destruction.
 class Lights {
-public:
-  /// `ids[k]` names line k of `bank`. @throws std::system_error if the lamps cannot be switched off.
+ public:
+  /// `ids[k]` names line k of `bank`. @throws std::system_error if the lamps cannot be switched off,
+  /// std::invalid_argument where ids and lines differ in number or two lamps share an id.
   Lights(std::vector<std::string> ids, std::unique_ptr<LineBank> bank, LightsOptions options = {});
   ~Lights();
   Lights(const Lights&) = delete;
   Lights& operator=(const Lights&) = delete;
 
   const std::vector<std::string>& ids() const;
-  /// All off, then exactly these on. An empty list is all_off(). @throws std::invalid_argument for an unknown id.
+  /// All off, then exactly these on. An empty list is all_off(). If a line fails, all are off again, as far as they
+  /// still obey. @throws std::invalid_argument for an unknown id, std::system_error where a line cannot be switched.
   SwitchTime show(const std::vector<std::string>& ids);
+  /// Writes "off" to every line, whatever was written before. @throws std::system_error
   SwitchTime all_off();
   /// Whether the watchdog has had to switch a lamp off since the last show().
   bool watchdog_tripped() const;
 
-private:
+ private:
   struct State;
   std::unique_ptr<State> state_;
 };

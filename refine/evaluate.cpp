@@ -158,6 +158,25 @@ Evaluation evaluate(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3
   return result;
 }
 
+ErrorMaps error_maps(const Camera& camera, const cv::Mat1f& depth, const GroundTruth& truth) {
+  Compared c = on_finer_grid(camera, depth, {}, truth);
+  keep_comparable(c);
+  const cv::Mat3d depth_normals = normals_from_depth(c.camera, c.depth);
+  ErrorMaps maps{c.camera, 0, cv::Mat1f(c.depth.size(), kNaN), cv::Mat1f(c.depth.size(), kNaN)};
+  int count = 0;
+  for (int y = 0; y < c.depth.rows; ++y) {
+    for (int x = 0; x < c.depth.cols; ++x) {
+      if (!std::isfinite(c.depth(y, x))) continue;
+      maps.depth_mm(y, x) = 1000 * (c.depth(y, x) - c.true_depth(y, x));
+      maps.normal_deg(y, x) = static_cast<float>(angle_deg(depth_normals(y, x), c.true_normals(y, x)));
+      maps.mean_depth_m += static_cast<double>(c.depth(y, x));
+      ++count;
+    }
+  }
+  maps.mean_depth_m /= std::max(1, count);
+  return maps;
+}
+
 ErrorBarReport evaluate_error_bars(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals,
                                    const cv::Mat3f& uncertainty, const GroundTruth& truth) {
   if (uncertainty.size() != depth.size()) refuse_sizes("uncertainty", uncertainty.size(), depth.size());

@@ -23,6 +23,17 @@ struct Evaluation {
 Evaluation evaluate(const Camera& camera, const cv::Mat1f& depth, const cv::Mat3f& normals,
                     const GroundTruth& truth);
 
+/// Errors pixel by pixel, on the finer grid; NaN where truth or depth is missing.
+struct ErrorMaps {
+  Camera camera;            ///< of that grid
+  double mean_depth_m = 0;  ///< of the pixels compared
+  cv::Mat1f depth_mm;       ///< depth minus truth
+  cv::Mat1f normal_deg;     ///< angle between the true normal and that of depth by forward differences
+};
+
+/// Parameters and errors as in evaluate.
+ErrorMaps error_maps(const Camera& camera, const cv::Mat1f& depth, const GroundTruth& truth);
+
 /// How honest a result's error bars are: the share of errors inside one standard deviation, 0.68 for perfect ones.
 struct ErrorBarReport {
   double depth_within = 0;   ///< depth errors, the mean error removed

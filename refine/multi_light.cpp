@@ -152,10 +152,9 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   result.message += "; " + lamps.explanation();
-  result.uncertainty = estimate_uncertainty(
-      {problem.grid, problem.corners, tensors, weights, prior}, images, state, options.depth, *solver,
-      std::sqrt(options.depth.noise_ratio) * noise.image,
-      result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
+  result.uncertainty =
+      estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, images, state, *solver,
+                           result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
   result.quality["far_over_near_residual"] = lamps.far_over_near();
   result.quality["image_noise"] = noise.image;
   result.quality["depth_noise_log"] = noise.depth;

@@ -14,8 +14,8 @@ void single_image_defaults(RefineOptions& options) {
   options.min_iterations = 4;
   options.trust.attached_shadows = false;
   options.albedo.palette_weight = 100;
-  options.depth.noise_ratio = 0.3;
   // The fusion methods have one equation a pixel for two slopes: more is left to smoothness.
+  options.depth.noise_ratio = options.method == Method::rgb_ratio ? 0.5 : 0.3;
   options.depth.smoothness = options.method == Method::rgb_ratio ? 100 : 700;
 }
 

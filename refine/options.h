@@ -66,7 +66,8 @@ struct AlbedoOptions {
   double smoothness = 1000;  ///< lambda_rho: weight of differences between neighbours
   double edge_sigma =
       0.05;  ///< sigma_I: change between neighbours that begins to count as an edge of the paint
-  double edge_floor = 1e-3;         ///< share of the smoothness that is left across an edge
+  /// Share of the smoothness left across an edge. More lets the paint of neighbours mix, which the shape then takes up.
+  double edge_floor = 1e-4;
   double palette_bandwidth = 0.25;  ///< of the object's few colours in log RGB; 0: no palette
   double palette_weight = 10;       ///< pull to the palette against the pixel's own colour
   double depth_sigma = 7.07;  ///< sigma_z of Eq. (11), in the unit of the method's depth (preset paper only)

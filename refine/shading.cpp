@@ -12,7 +12,7 @@
 #include "refine/steps/lighting.h"
 #include "refine/steps/noise.h"
 #include "refine/steps/robust_weights.h"
-#include "refine/steps/smooth_depth_step.h"
+#include "refine/steps/depth_step.h"
 
 namespace rakelight {
 namespace {
@@ -24,6 +24,7 @@ constexpr double kSmoothFitSigma = 5;  // pixels
 constexpr double kSensorCorrelation = 2;
 // The same of the model's own error, which is alike all over a block of 4 x 4.
 constexpr double kModelCorrelation = 4;
+constexpr double kDepthTolerance = 1e-2;  // of a step's system: the next iteration takes up what is left
 constexpr double kFloorPer = 100;       // the lambda_z that options.depth.floor goes with
 constexpr float kDarkAlbedo = 0.05f;  // of the mean: below, I / rho says nothing
 
@@ -122,9 +123,11 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
   MethodResult result;
   SurfaceState& state = result.state = initial_state(problem, options);
   const PixelGrid& grid = problem.grid;
-  AlbedoSmoother smoother(grid, problem.images, options.albedo);
+  AlbedoSmoother smoother(grid, problem.images, options.albedo, options.depth.solver);
   const CurvaturePrior curvature(grid, problem.cut_right, problem.cut_down);
-  SparseCholesky solver;
+  const auto solver = options.depth.solver == Solver::exact
+                          ? make_cholesky_depth_solver(grid, problem.prior.cells)
+                          : make_multigrid_depth_solver(grid, problem.prior.cells, kDepthTolerance);
   DepthPrior prior = problem.prior;
   ShadingErrors errors;
   const auto fail = [&](const std::string& what, int t) {
@@ -163,12 +166,13 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
     const auto tensors = accumulate_tensors(white_image, white);
     const auto weights =
         corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
-    const DepthProblem depth{grid, problem.corners, tensors, weights, prior};
-    const Smoothness smoothness =
-        curvature.at(state.zeta, options.depth.smoothness * std::pow(errors.sample * grid.camera.fx, 2));
+    CurvatureWeights smoothness;
+    if (options.depth.smoothness > 0)
+      smoothness =
+          curvature.at(state.zeta, options.depth.smoothness * std::pow(errors.sample * grid.camera.fx, 2));
+    const DepthProblem depth{grid, problem.corners, tensors, weights, prior, smoothness};
     const Eigen::VectorXd before = state.zeta;
-    const DepthStepReport step =
-        smooth_depth_step(depth, smoothness, options.depth, solver, state.zeta);  // Eq. (12)
+    const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (12)
 
     report.energy_before_depth = step.energy_before;
     report.energy = step.energy_after;

@@ -115,6 +115,11 @@ cv::Mat1w sense_frame(const SimulateOptions& options, const StaticView& view, co
 
 }  // namespace
 
+Camera structured_light_camera(cv::Size size) {
+  const double focal = 570.0 * size.width / 640;
+  return {size.width, size.height, focal, focal, (size.width - 1) / 2.0, (size.height - 1) / 2.0, {}};
+}
+
 cv::Mat1f correlated_noise(cv::Size size, double sigma_px, std::uint64_t seed, std::uint64_t stream) {
   const int margin = static_cast<int>(std::ceil(4 * sigma_px));
   cv::Mat1f white(size.height + 2 * margin, size.width + 2 * margin);

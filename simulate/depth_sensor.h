@@ -11,6 +11,9 @@
 
 namespace rakelight {
 
+/// The field of view of the usual structured-light sensor: f = 570 at 640 x 480.
+Camera structured_light_camera(cv::Size size);
+
 /// Depth frames in raw units (0 = no reading) of the scene seen by `camera`.
 std::vector<cv::Mat1w> sense_depth(const SimulateOptions& options, const Camera& camera,
                                    const RayTracer& tracer, int count);

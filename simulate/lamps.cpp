@@ -63,6 +63,8 @@ LampTruth make_lamp(const SimulateOptions& options, const std::string& id, LampC
   return lamp;
 }
 
+}  // namespace
+
 LampSet white_lamp(const SimulateOptions& options, int k) {
   const RigOptions& rig = options.lamps;
   const Eigen::Vector3d direction = rig.layout == LampLayout::ring
@@ -83,18 +85,25 @@ LampSet white_lamp(const SimulateOptions& options, int k) {
   return set;
 }
 
+LampTruth channel_lamp(const SimulateOptions& options, int channel, int k, int count) {
+  const RigOptions& rig = options.lamps;
+  constexpr LampColor kColors[]{LampColor::red, LampColor::green, LampColor::blue};
+  const LampColor color = kColors[channel];
+  const double start = 2 * M_PI * CounterRandom(options.seed, kRgb).uniform(0);
+  const double azimuth = start + 2 * M_PI * (channel + 3 * k) / (3 * count);
+  return make_lamp(options, to_string(color), color, toward_lamp(rig.angle_deg * M_PI / 180, azimuth),
+                   rig.distance_m, Eigen::Vector3d::Unit(channel));
+}
+
+namespace {
+
 /// Red, green and blue lamps a third of a turn apart, each alone in its channel.
 LampSet rgb_lamps(const SimulateOptions& options) {
-  const RigOptions& rig = options.lamps;
   LampSet set;
   set.light = {"rgb", LampColor::rgb, {}, {}};
-  const CounterRandom random(options.seed, kRgb);
-  const double start = 2 * M_PI * random.uniform(0);
-  constexpr LampColor kColors[]{LampColor::red, LampColor::green, LampColor::blue};
   for (int c = 0; c < 3; ++c) {
-    const Eigen::Vector3d direction = toward_lamp(rig.angle_deg * M_PI / 180, start + 2 * M_PI * c / 3);
-    set.lamps.push_back(
-        make_lamp(options, "rgb", kColors[c], direction, rig.distance_m, Eigen::Vector3d::Unit(c)));
+    set.lamps.push_back(channel_lamp(options, c, 0, 1));
+    set.lamps.back().id = "rgb";
   }
   return set;
 }

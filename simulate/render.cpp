@@ -38,6 +38,12 @@ Eigen::Vector3f pixel_radiance(const ShadingContext& context, const std::vector<
   return total_radiance(context, samples, lamps) / static_cast<float>(n * n);
 }
 
+cv::Vec3f mean_albedo(const std::vector<SurfaceSample>& samples) {
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  for (const auto& sample : samples) mean += sample.albedo / static_cast<float>(samples.size());
+  return {mean.x(), mean.y(), mean.z()};
+}
+
 void render_row(const ShadingContext& context, const Camera& camera, const std::vector<LampSet>& sets,
                 const ImageSensor& sensor, int v, RenderedImages& out) {
   std::vector<SurfaceSample> samples;
@@ -47,10 +53,26 @@ void render_row(const ShadingContext& context, const Camera& camera, const std::
       sensor.expose(pixel_radiance(context, samples, sets[k].lamps), static_cast<int>(k), {u, v},
                     out.colors[k]);
     }
+    if (!samples.empty()) out.albedo(v, u) = mean_albedo(samples);
+  }
+}
+
+void render_radiance_row(const ShadingContext& context, const Camera& camera,
+                         const std::vector<LampTruth>& lamps, int v, RadianceImages& out) {
+  const float share =
+      1.0f / static_cast<float>(context.options.image.samples * context.options.image.samples);
+  const auto store = [share](const Eigen::Vector3f& sum, cv::Vec3f& pixel) {
+    pixel = {share * sum.x(), share * sum.y(), share * sum.z()};
+  };
+  std::vector<SurfaceSample> samples;
+  for (int u = 0; u < camera.width; ++u) {
+    sample_pixel(context, camera, u, v, samples);
     if (samples.empty()) continue;
-    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-    for (const auto& sample : samples) mean += sample.albedo / static_cast<float>(samples.size());
-    out.albedo(v, u) = {mean.x(), mean.y(), mean.z()};
+    out.albedo(v, u) = mean_albedo(samples);
+    store(ambient_radiance(context, samples), out.ambient(v, u));
+    for (std::size_t k = 0; k < lamps.size(); ++k) {
+      store(lamp_radiance(context, samples, lamps[k]), out.lamps[k](v, u));
+    }
   }
 }
 
@@ -107,6 +129,17 @@ RenderedImages render_images(const ShadingContext& context, const Camera& camera
     });
     progress(static_cast<double>(last) / camera.height);
   }
+  return out;
+}
+
+RadianceImages render_radiance(const ShadingContext& context, const Camera& camera,
+                               const std::vector<LampTruth>& lamps) {
+  RadianceImages out{
+      cv::Mat3f(camera.size(), cv::Vec3f()), {}, cv::Mat3f(camera.size(), cv::Vec3f(kNaN, kNaN, kNaN))};
+  for (std::size_t k = 0; k < lamps.size(); ++k) out.lamps.emplace_back(camera.size(), cv::Vec3f());
+  cv::parallel_for_({0, camera.height}, [&](const cv::Range& rows) {
+    for (int v = rows.start; v < rows.end; ++v) render_radiance_row(context, camera, lamps, v, out);
+  });
   return out;
 }
 

@@ -29,6 +29,15 @@ struct RenderedImages {
 RenderedImages render_images(const ShadingContext& context, const Camera& camera,
                              const std::vector<LampSet>& sets, double exposure, const RowProgress& progress);
 
+/// Linear radiance a light source, so that any mixture of lamps is a weighted sum of images.
+struct RadianceImages {
+  cv::Mat3f ambient;
+  std::vector<cv::Mat3f> lamps;  ///< runs parallel to the lamps asked for
+  cv::Mat3f albedo;              ///< as in RenderedImages
+};
+RadianceImages render_radiance(const ShadingContext& context, const Camera& camera,
+                               const std::vector<LampTruth>& lamps);
+
 /// Depth (metres) and smooth normals along the rays through pixel centres; NaN where there is no object.
 struct SurfaceMaps {
   cv::Mat1f depth;

@@ -33,9 +33,19 @@ Eigen::Vector3f reflected(const ImageOptions& image, const SurfaceSample& sample
   return result;
 }
 
-/// Sum of one lamp's reflected light over the samples, without those in its cast shadow.
-Eigen::Vector3f from_lamp(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
-                          const LampTruth& lamp) {
+}  // namespace
+
+Eigen::Vector3f ambient_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const SurfaceSample& sample : samples) {
+    sum += sample.albedo.cwiseProduct(ambient(context.options, sample.hit.normal));
+  }
+  return sum;
+}
+
+/// The lamp's cast shadow takes samples out.
+Eigen::Vector3f lamp_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
+                              const LampTruth& lamp) {
   thread_local std::vector<ShadowRay> rays;
   thread_local std::vector<Eigen::Vector3f> lit;  // runs parallel to `rays`
   thread_local std::vector<bool> occluded;
@@ -60,15 +70,10 @@ Eigen::Vector3f from_lamp(const ShadingContext& context, const std::vector<Surfa
   return sum;
 }
 
-}  // namespace
-
 Eigen::Vector3f total_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
                                const std::vector<LampTruth>& lamps) {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const SurfaceSample& sample : samples) {
-    sum += sample.albedo.cwiseProduct(ambient(context.options, sample.hit.normal));
-  }
-  for (const LampTruth& lamp : lamps) sum += from_lamp(context, samples, lamp);
+  Eigen::Vector3f sum = ambient_radiance(context, samples);
+  for (const LampTruth& lamp : lamps) sum += lamp_radiance(context, samples, lamp);
   return sum;
 }
 

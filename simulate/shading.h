@@ -25,8 +25,11 @@ struct ShadingContext {
   Eigen::Vector3f object_center;
 };
 
-/// Sum over the samples of the linear radiance towards the eye under the lamps and the room's ambient light;
-/// 1 = a facing white surface under a lamp of strength 1.
+/// Sums over the samples of the linear radiance towards the eye; 1 = a facing white surface under a lamp of strength 1.
+/// Under the room's ambient light alone, under one lamp alone, under both.
+Eigen::Vector3f ambient_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples);
+Eigen::Vector3f lamp_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
+                              const LampTruth& lamp);
 Eigen::Vector3f total_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
                                const std::vector<LampTruth>& lamps);
 

@@ -28,13 +28,6 @@ class ThreadCount {
   int before_;
 };
 
-/// The field of view of the usual structured-light sensor: f = 570 at 640 x 480.
-Camera depth_camera(const SimulateOptions& options) {
-  const double focal = 570.0 * options.width / 640;
-  return {
-      options.width, options.height, focal, focal, (options.width - 1) / 2.0, (options.height - 1) / 2.0, {}};
-}
-
 cv::Mat1b mask_of(const cv::Mat1f& depth) {
   return cv::Mat1b(depth == depth);  // NaN differs from itself
 }
@@ -111,7 +104,7 @@ Simulated simulate_stack(const SimulateOptions& options, const SimulateProgress&
     if (progress && !progress(fraction)) throw Cancelled();
   };
   report(0);
-  const Camera depth = depth_camera(options);
+  const Camera depth = structured_light_camera({options.width, options.height});
   const Camera color = binned(depth, 1.0 / options.color_scale);
   const RayTracer tracer(make_scene(options.scene, color));
   const ShadingContext context{options, tracer,

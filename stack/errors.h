@@ -33,6 +33,11 @@ class IoError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A device is gone or does not do its work (exit 4). What the system itself reports is a std::system_error.
+class DeviceError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The caller asked to stop (exit 130).
 class Cancelled : public std::runtime_error {
  public:

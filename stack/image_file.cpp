@@ -99,6 +99,14 @@ cv::Mat1b read_mask_png(const fs::path& file, const std::vector<cv::Size>& sizes
   return mask;
 }
 
+cv::Mat1b read_gray_png(const fs::path& file) {
+  cv::Mat image = decode_png(file, checked_header(file, {}));
+  if (image.channels() == 4) cv::cvtColor(image, image, cv::COLOR_BGRA2GRAY);
+  if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
+  if (image.depth() == CV_16U) cv::normalize(image, image, 0, 255, cv::NORM_MINMAX, CV_8U);
+  return image;
+}
+
 void write_png(const fs::path& file, const cv::Mat& image) {
   cv::Mat stored = image;
   if (image.channels() == 3) {

@@ -24,6 +24,10 @@ cv::Mat1w read_depth_png(const std::filesystem::path& file, const ExpectedSize& 
 /// @param sizes it may have; empty: any  @throws InputError, IoError.
 cv::Mat1b read_mask_png(const std::filesystem::path& file, const std::vector<cv::Size>& sizes = {});
 
+/// Any PNG as brightness for looking at: colour becomes grey, and the brightest of 16-bit values becomes 255.
+/// @throws InputError, IoError.
+cv::Mat1b read_gray_png(const std::filesystem::path& file);
+
 /// Writes a PNG: 8- or 16-bit, one channel or R, G, B. @throws IoError.
 void write_png(const std::filesystem::path& file, const cv::Mat& image);
 

@@ -35,13 +35,14 @@ void write(cv::Mat3b& picture, const std::string& text, int x) {
 
 }  // namespace
 
-double error_range_mm(const cv::Mat1f& depth, const cv::Mat1f& truth) {
+double round_range(const cv::Mat1f& values, double share) {
   std::vector<float> sizes;
-  for (const float error : errors_mm(depth, truth)) {
-    if (std::isfinite(error)) sizes.push_back(std::abs(error));
+  for (const float value : values) {
+    if (std::isfinite(value)) sizes.push_back(std::abs(value));
   }
   if (sizes.empty()) return 1;
-  const auto most = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) * 9 / 10);
+  const auto most =
+      sizes.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(sizes.size() - 1) * share);
   std::nth_element(sizes.begin(), most, sizes.end());
   for (double decade = 1e-3;; decade *= 10) {
     for (const double step : {1.0, 2.0, 5.0}) {
@@ -50,15 +51,22 @@ double error_range_mm(const cv::Mat1f& depth, const cv::Mat1f& truth) {
   }
 }
 
-cv::Mat3b error_map(const cv::Mat1f& depth, const cv::Mat1f& truth, double range_mm) {
-  const cv::Mat1f errors = errors_mm(depth, truth);
-  cv::Mat3b picture(depth.size(), cv::Vec3b::all(0));
+cv::Mat3b error_colors(const cv::Mat1f& errors, double range) {
+  cv::Mat3b picture(errors.size(), cv::Vec3b::all(0));
   for (int y = 0; y < errors.rows; ++y) {
     for (int x = 0; x < errors.cols; ++x) {
-      if (std::isfinite(errors(y, x))) picture(y, x) = color_of(errors(y, x) / static_cast<float>(range_mm));
+      if (std::isfinite(errors(y, x))) picture(y, x) = color_of(errors(y, x) / static_cast<float>(range));
     }
   }
   return picture;
+}
+
+double error_range_mm(const cv::Mat1f& depth, const cv::Mat1f& truth) {
+  return round_range(errors_mm(depth, truth), 0.9);
+}
+
+cv::Mat3b error_map(const cv::Mat1f& depth, const cv::Mat1f& truth, double range_mm) {
+  return error_colors(errors_mm(depth, truth), range_mm);
 }
 
 cv::Mat3b error_scale(int width, double range_mm) {

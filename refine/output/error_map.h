@@ -8,6 +8,14 @@
 
 namespace rakelight {
 
+/// The first of 1, 2 or 5 times a power of ten (at least 0.001) that this share of the absolute values does not exceed;
+/// NaN does not count.
+double round_range(const cv::Mat1f& values, double share);
+
+/// Errors as colours: blue = negative, white = 0, red = positive, full colour at `range` and beyond; black where NaN.
+/// R, G, B. @param range in the unit of the errors
+cv::Mat3b error_colors(const cv::Mat1f& errors, double range);
+
 /// The range of colours that shows `depth`'s errors well: 1, 2 or 5 times a power of ten (mm), at least their 90th
 /// percentile. @param depth, truth metres, NaN = none, sizes as in error_map
 double error_range_mm(const cv::Mat1f& depth, const cv::Mat1f& truth);

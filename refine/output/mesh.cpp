@@ -23,8 +23,9 @@ cv::Vec3f back_project(const Camera& camera, int x, int y, double z) {
 /// Adds the triangles between pixels of the depth grid.
 class Triangulation {
  public:
-  Triangulation(const RefineResult& result, const cv::Mat1i& vertex_index, Mesh& mesh)
+  Triangulation(const RefineResult& result, int stride, const cv::Mat1i& vertex_index, Mesh& mesh)
       : depth_(result.depth),
+        stride_(stride),
         focal_px_(std::min(result.camera.fx, result.camera.fy)),
         index_(vertex_index),
         mesh_(mesh) {}
@@ -32,7 +33,7 @@ class Triangulation {
   /// The square whose first corner is (x, y): two triangles, split along the diagonal with the smaller depth
   /// difference, or the one triangle that three corners allow.
   void add_square(int x, int y) {
-    const cv::Point a(x, y), b(x + 1, y), c(x, y + 1), d(x + 1, y + 1);
+    const cv::Point a(x, y), b(x + stride_, y), c(x, y + stride_), d(x + stride_, y + stride_);
     const bool along_ad =
         missing(b) || missing(c) || (!missing(a) && !missing(d) && step(a, d) <= step(b, c));
     if (along_ad) {
@@ -60,6 +61,7 @@ class Triangulation {
   }
 
   const cv::Mat1f& depth_;
+  int stride_;
   double focal_px_;
   const cv::Mat1i& index_;
   Mesh& mesh_;
@@ -67,12 +69,12 @@ class Triangulation {
 
 }  // namespace
 
-Mesh mesh_of(const RefineResult& result) {
+Mesh mesh_of(const RefineResult& result, int stride) {
   Mesh mesh;
   const cv::Mat3b colors = albedo_picture(result.albedo);
   cv::Mat1i index(result.depth.size(), -1);
-  for (int y = 0; y < index.rows; ++y) {
-    for (int x = 0; x < index.cols; ++x) {
+  for (int y = 0; y < index.rows; y += stride) {
+    for (int x = 0; x < index.cols; x += stride) {
       if (!has_depth(result.depth, y, x)) continue;
       index(y, x) = static_cast<int>(mesh.vertices.size());
       const double z = result.depth(y, x), z0 = result.initial_depth(y, x);
@@ -81,11 +83,16 @@ Mesh mesh_of(const RefineResult& result) {
           {back_project(result.camera, x, y, z), result.normals(y, x), colors(y, x), delta_mm});
     }
   }
-  Triangulation triangulation(result, index, mesh);
-  for (int y = 0; y + 1 < index.rows; ++y) {
-    for (int x = 0; x + 1 < index.cols; ++x) triangulation.add_square(x, y);
+  Triangulation triangulation(result, stride, index, mesh);
+  for (int y = 0; y + stride < index.rows; y += stride) {
+    for (int x = 0; x + stride < index.cols; x += stride) triangulation.add_square(x, y);
   }
   return mesh;
+}
+
+int stride_for(const cv::Mat1f& depth, int vertices) {
+  const double pixels = cv::countNonZero(depth == depth);
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / vertices))));
 }
 
 }  // namespace rakelight

@@ -25,6 +25,10 @@ struct Mesh {
 };
 
 /// One vertex a pixel with depth, row by row; neighbours are joined unless a depth jump lies between them.
-Mesh mesh_of(const RefineResult& result);
+/// @param stride takes every stride-th pixel of every stride-th row
+Mesh mesh_of(const RefineResult& result, int stride = 1);
+
+/// The smallest stride that leaves about `vertices` vertices or fewer.
+int stride_for(const cv::Mat1f& depth, int vertices);
 
 }  // namespace rakelight

@@ -4,10 +4,12 @@
 
 #include <string>
 
+#include "refine/output/glb.h"
 #include "refine/output/images.h"
 #include "refine/output/mesh.h"
 #include "refine/output/pictures.h"
 #include "refine/output/ply.h"
+#include "refine/output/report/report.h"
 #include "refine/output/result_json.h"
 #include "stack/atomic_folder.h"
 #include "stack/camera_json.h"
@@ -28,7 +30,7 @@ const FolderKind& result_kind() {
       "result",
       kManifest,
       {"depth.tiff", "depth.png", "initial_depth.tiff", "normals.tiff", "normals.png", "uncertainty.tiff",
-       "albedo.tiff", "albedo.png", "mesh.ply", "before_after.png"}};
+       "albedo.tiff", "albedo.png", "mesh.ply", "mesh.glb", "before_after.png", "report.html"}};
   return kind;
 }
 
@@ -49,7 +51,7 @@ Camera read_camera_of(const fs::path& file) {
 
 }  // namespace
 
-void write_result(const RefineResult& result, const fs::path& folder) {
+void write_result(const RefineResult& result, const fs::path& folder, const LightStack* stack) {
   AtomicFolder out(folder, result_kind());
   write_tiff(out.path() / "depth.tiff", result.depth);
   write_png(out.path() / "depth.png", depth_picture(result.depth, depth_unit(result.depth)));
@@ -60,7 +62,9 @@ void write_result(const RefineResult& result, const fs::path& folder) {
   write_tiff(out.path() / "albedo.tiff", result.albedo);
   write_png(out.path() / "albedo.png", albedo_picture(result.albedo));
   write_file(out.path() / "mesh.ply", ply_bytes(mesh_of(result)));
+  write_file(out.path() / "mesh.glb", glb_bytes(mesh_of(result, stride_for(result.depth, kMaxGlbVertices))));
   write_png(out.path() / "before_after.png", before_after_picture(result));
+  write_file(out.path() / "report.html", report_html(result, stack));
   write_file(out.path() / kManifest, result_json(result));
   out.commit();
 }

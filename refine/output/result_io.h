@@ -10,10 +10,12 @@
 
 namespace rakelight {
 
-/// Writes depth, normals, albedo, mesh.ply, before_after.png and result.json whole or not at all: a temporary sibling
+/// Writes depth, normals, albedo, meshes, pictures, report.html and result.json whole or not at all: a temporary sibling
 /// is filled under a lock, then renamed.
+/// @param stack what the result was made from, whose frames the report shows; null: it shows none
 /// @throws BusyError, IoError; InputError if `folder` exists and is neither empty nor a result.
-void write_result(const RefineResult& result, const std::filesystem::path& folder);
+void write_result(const RefineResult& result, const std::filesystem::path& folder,
+                  const LightStack* stack = nullptr);
 
 /// Refuses early what write_result would refuse, so that a long run does not end in vain. @throws as write_result.
 void check_result_folder(const std::filesystem::path& folder);

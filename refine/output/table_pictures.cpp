@@ -92,7 +92,7 @@ PictureRow input_row(const LightStack& stack, const RefineResult& result) {
                                 [](const Frame& frame) { return frame.light && !frame.color.empty(); });
   if (lit == stack.frames.end()) return row;
   cv::resize(linear_color(stack, *lit), row.albedo, result.depth.size(), 0, 0, cv::INTER_AREA);
-  row.albedo.setTo(cv::Scalar::all(NAN), cv::Mat(result.depth != result.depth));
+  row.albedo.setTo(cv::Scalar::all(NAN), cv::Mat(result.depth == result.depth) == 0);
   return row;
 }
 

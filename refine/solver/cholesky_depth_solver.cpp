@@ -59,14 +59,19 @@ class CholeskyDepthSolver final : public DepthSolver {
 
   bool solve(const DepthSystem& system, Eigen::VectorXd& x) override {
     assemble(system);
-    if (!cholesky_.factorize(matrix_.lower())) return false;
-    Eigen::VectorXd solution = cholesky_.solve(system.rhs);
+    const bool solved =
+        system.curvature.empty()
+            ? cholesky_.factorize(matrix_.lower())
+            : cholesky_.factorize(matrix_.lower() + curvature_lower_triangle(grid_, system.curvature));
+    return solved && solve_again(system.rhs, x);
+  }
+
+  bool solve_again(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) override {
+    Eigen::VectorXd solution = cholesky_.solve(rhs);
     if (!solution.allFinite()) return false;
     x = std::move(solution);
     return true;
   }
-
-  Eigen::VectorXd sample(const Eigen::VectorXd& white) override { return cholesky_.sample(white); }
 
  private:
   void assemble(const DepthSystem& system) {

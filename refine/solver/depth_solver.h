@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "refine/pixel_grid.h"
+#include "refine/solver/curvature.h"
 
 namespace rakelight {
 
@@ -21,11 +22,12 @@ struct DepthCells {
   std::vector<std::vector<int>> pixels_of;  ///< [cell]: its pixels, at most s x s
 };
 
-/// Symmetric system (stencil + K' diag(cell_weight) K) x = rhs.
+/// Symmetric system (stencil + K' diag(cell_weight) K + C) x = rhs, C of second differences (refine/solver/curvature.h).
 struct DepthSystem {
   std::vector<double> diagonal, right, down, down_right,
       down_left;                ///< entry (p, neighbour of p in that direction)
   Eigen::VectorXd cell_weight;  ///< Lambda, a number a cell
+  CurvatureWeights curvature;
   Eigen::VectorXd rhs;
 
   explicit DepthSystem(int pixels)
@@ -44,15 +46,17 @@ class DepthSolver {
   /// Solves the system. @return false when it is not positive definite; x is then untouched.
   virtual bool solve(const DepthSystem& system, Eigen::VectorXd& x) = 0;
 
-  /// Draws from the normal distribution whose precision is the last system solved. @param white standard normal.
-  virtual Eigen::VectorXd sample(const Eigen::VectorXd& white) = 0;
+  /// Solves the last system solved for another right-hand side. @return as solve.
+  virtual bool solve_again(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) = 0;
 };
 
 /// The exact solver: CHOLMOD, symbolic factorisation kept. The grid and cells must outlive it.
 std::unique_ptr<DepthSolver> make_cholesky_depth_solver(const PixelGrid& grid, const DepthCells& cells);
 
 /// Conjugate gradients with a multigrid preconditioner (refine/solver/multigrid.h): time and memory linear in the pixels.
-/// A system it does not converge on goes to the exact solver, which also draws the samples.
-std::unique_ptr<DepthSolver> make_multigrid_depth_solver(const PixelGrid& grid, const DepthCells& cells);
+/// A system it does not converge on goes to the exact solver.
+/// @param tolerance of the residual in the preconditioner's norm, relative to the right-hand side's
+std::unique_ptr<DepthSolver> make_multigrid_depth_solver(const PixelGrid& grid, const DepthCells& cells,
+                                                         double tolerance = 1e-4);
 
 }  // namespace rakelight

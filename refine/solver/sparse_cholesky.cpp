@@ -97,10 +97,6 @@ bool SparseCholesky::factorize(const Matrix& lower) {
 
 Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const { return impl_->solve(CHOLMOD_A, b); }
 
-Eigen::VectorXd SparseCholesky::sample(const Eigen::VectorXd& white) const {
-  return impl_->solve(CHOLMOD_Pt, impl_->solve(CHOLMOD_Lt, white));  // A = P' L L' P
-}
-
 double SparseCholesky::reciprocal_condition() const {
   return impl_->valid ? cholmod_rcond(impl_->factor, &impl_->common) : 0.0;
 }

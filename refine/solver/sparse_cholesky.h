@@ -25,9 +25,6 @@ class SparseCholesky {
   /// Solves A x = b. Needs a successful factorize.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
-  /// x with L' x = white: a sample of the normal distribution of covariance inv(A) when `white` is standard normal.
-  Eigen::VectorXd sample(const Eigen::VectorXd& white) const;
-
   /// Rough reciprocal condition number of A from the factor's diagonal, 0 when singular.
   double reciprocal_condition() const;
 

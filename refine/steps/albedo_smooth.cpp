@@ -6,12 +6,15 @@
 #include <cmath>
 
 #include "refine/steps/albedo_palette.h"
+#include "refine/steps/super_resolution.h"
 
 namespace rakelight {
 namespace {
 
 constexpr float kDarkest =
     1e-3f;  // of the brightest value: below, a logarithm says more of noise than of paint
+// Of the change since the last estimate, in the preconditioner's norm.
+constexpr double kAlbedoTolerance = 1e-2;
 constexpr float kDimShading = 0.1f;  // of the median shading: below, a pixel does not speak for the albedo
 
 float brightest(const Observations& image) {
@@ -62,33 +65,46 @@ EdgeWeights color_edge_weights(const PixelGrid& grid, const Observations& image,
   return edges;
 }
 
-AlbedoSmoother::AlbedoSmoother(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options)
-    : grid_(grid), image_(image), options_(options), edges_(color_edge_weights(grid, image, options)) {}
+AlbedoSmoother::AlbedoSmoother(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options,
+                               Solver solver)
+    : grid_(grid),
+      image_(image),
+      options_(options),
+      edges_(color_edge_weights(grid, image, options)),
+      cells_(make_cells(grid, 1)),
+      solver_(solver == Solver::exact ? make_cholesky_depth_solver(grid, cells_)
+                                      : make_multigrid_depth_solver(grid, cells_, kAlbedoTolerance)),
+      log_albedo_(Eigen::Matrix3Xd::Zero(3, grid.size())) {}
 
 bool AlbedoSmoother::solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd& weighted_target,
                            Eigen::Matrix3Xd& log_albedo) {
   const int count = grid_.size();
-  std::vector<double> diagonal(weight.data(), weight.data() + count);
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<size_t>(3 * count));
-  const auto couple = [&](int p, int q, double v) {
+  DepthSystem system(count);
+  system.cell_weight = Eigen::VectorXd::Zero(count);
+  Eigen::Matrix3Xd rest = weighted_target - log_albedo * weight.asDiagonal();
+  Eigen::VectorXd::Map(system.diagonal.data(), count) = weight;
+  const auto couple = [&](int p, int q, double v, double& entry) {
     if (q < 0) return;
     v *= options_.smoothness;
-    diagonal[static_cast<size_t>(p)] += v;
-    diagonal[static_cast<size_t>(q)] += v;
-    entries.emplace_back(std::max(p, q), std::min(p, q), -v);
+    system.diagonal[static_cast<size_t>(p)] += v;
+    system.diagonal[static_cast<size_t>(q)] += v;
+    entry = -v;
+    const Eigen::Vector3d flow = v * (log_albedo.col(q) - log_albedo.col(p));
+    rest.col(p) += flow;
+    rest.col(q) -= flow;
   };
   for (int p = 0; p < count; ++p) {
     const auto i = static_cast<size_t>(p);
-    couple(p, grid_.neighbor[kRight][i], edges_.right[i]);
-    couple(p, grid_.neighbor[kDown][i], edges_.down[i]);
+    couple(p, grid_.neighbor[kRight][i], edges_.right[i], system.right[i]);
+    couple(p, grid_.neighbor[kDown][i], edges_.down[i], system.down[i]);
   }
-  for (int p = 0; p < count; ++p) entries.emplace_back(p, p, diagonal[static_cast<size_t>(p)]);
-  SparseCholesky::Matrix lower(count, count);
-  lower.setFromTriplets(entries.begin(), entries.end());
-  if (!solver_.factorize(lower)) return false;
-  for (int c = 0; c < 3; ++c)
-    log_albedo.row(c) = solver_.solve(weighted_target.row(c).transpose()).transpose();
+  for (int c = 0; c < 3; ++c) {
+    Eigen::VectorXd correction;
+    system.rhs = rest.row(c).transpose();
+    if (!(c == 0 ? solver_->solve(system, correction) : solver_->solve_again(system.rhs, correction)))
+      return false;
+    log_albedo.row(c) += correction.transpose();
+  }
   return log_albedo.allFinite();
 }
 
@@ -102,7 +118,7 @@ bool AlbedoSmoother::estimate(const SurfaceState& state, Eigen::Matrix3Xf& albed
     weight[p] = S.col(p).minCoeff() > dim && image_.usable_channels(0, p).minCoeff() > 0 ? 1.0 : kUnknown;
     target.col(p) -= S.col(p).cwiseMax(dim).array().log().matrix().cast<double>();
   }
-  Eigen::Matrix3Xd smooth(3, grid_.size());
+  Eigen::Matrix3Xd& smooth = log_albedo_;
   if (!solve(weight, target * weight.asDiagonal(), smooth)) return false;
   if (options_.palette_bandwidth > 0 && options_.palette_weight > 0) {
     const PalettePull pull = palette_pull(smooth, options_.palette_bandwidth);

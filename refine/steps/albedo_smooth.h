@@ -10,7 +10,7 @@
 
 #include "refine/observations.h"
 #include "refine/options.h"
-#include "refine/solver/sparse_cholesky.h"
+#include "refine/solver/depth_solver.h"
 #include "refine/surface_state.h"
 
 namespace rakelight {
@@ -27,12 +27,15 @@ EdgeWeights color_edge_weights(const PixelGrid& grid, const Observations& image,
 /// Smooth log albedo of one image and what it is pulled to.
 class AlbedoSmoother {
  public:
-  AlbedoSmoother(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options);
+  /// @param grid, image must outlive this
+  AlbedoSmoother(const PixelGrid& grid, const Observations& image, const AlbedoOptions& options,
+                 Solver solver);
 
   /// Albedo (3 x pixels) under the state's normals and lamps. @return false when the system is singular.
   bool estimate(const SurfaceState& state, Eigen::Matrix3Xf& albedo);
 
  private:
+  /// @param log_albedo where to start, and the solution
   bool solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd& weighted_target,
              Eigen::Matrix3Xd& log_albedo);
 
@@ -40,7 +43,9 @@ class AlbedoSmoother {
   const Observations& image_;
   AlbedoOptions options_;
   EdgeWeights edges_;
-  SparseCholesky solver_;
+  DepthCells cells_;  ///< of one pixel each
+  std::unique_ptr<DepthSolver> solver_;
+  Eigen::Matrix3Xd log_albedo_;  ///< of the last estimate
 };
 
 }  // namespace rakelight

@@ -5,14 +5,40 @@
 #include <algorithm>
 #include <cmath>
 
-#include "refine/steps/laplacian.h"
+#include "refine/pixel_blocks.h"
 
 namespace rakelight {
 namespace {
 
 constexpr double kEdge = 2;  // robust deviations of second differences at which one counts half
 
-/// Robust deviation of the values that are not exactly zero: rows without both neighbours do not count.
+Eigen::VectorXd reachable(const PixelGrid& grid, Neighbor before, Neighbor after,
+                          const std::vector<unsigned char>& cuts) {
+  const auto is_cut = [&](int p) { return !cuts.empty() && cuts[static_cast<size_t>(p)] != 0; };
+  Eigen::VectorXd reach(grid.size());
+  for (int p = 0; p < grid.size(); ++p) {
+    const int a = grid.neighbor[before][static_cast<size_t>(p)],
+              b = grid.neighbor[after][static_cast<size_t>(p)];
+    reach[p] = a < 0 || b < 0 || is_cut(a) || is_cut(p) ? 0 : 1;
+  }
+  return reach;
+}
+
+/// Second differences where they can be reached, else 0.
+Eigen::VectorXd differences(const PixelGrid& grid, Neighbor before, Neighbor after,
+                            const Eigen::VectorXd& reach, const Eigen::VectorXd& zeta) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(zeta.size());
+  for_each_block(grid.size(), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      const auto i = static_cast<size_t>(p);
+      if (reach[p] != 0)
+        result[p] = zeta[grid.neighbor[before][i]] - 2 * zeta[p] + zeta[grid.neighbor[after][i]];
+    }
+  });
+  return result;
+}
+
+/// Robust deviation of the values that are not exactly zero: those out of reach do not count.
 double deviation(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   std::vector<double> sizes;
   for (const Eigen::VectorXd* values : {&a, &b})
@@ -24,29 +50,29 @@ double deviation(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return 1.4826 * *middle;
 }
 
-Eigen::SparseMatrix<double> weighted_square(const Eigen::SparseMatrix<double>& rows,
-                                            const Eigen::VectorXd& difference, double half, double weight) {
-  Eigen::VectorXd root(difference.size());
-  for (Eigen::Index p = 0; p < root.size(); ++p) {
-    const double relative = half > 0 ? difference[p] / half : 0;
-    root[p] = std::sqrt(weight / (1 + relative * relative));
-  }
-  const Eigen::SparseMatrix<double> scaled = root.asDiagonal() * rows;
-  return Eigen::SparseMatrix<double>(scaled.transpose()) * scaled;
+/// weight / (1 + (difference / half)^2) within reach.
+Eigen::VectorXd sparing_edges(const Eigen::VectorXd& reach, const Eigen::VectorXd& difference, double half,
+                              double weight) {
+  if (half <= 0) return weight * reach;
+  return weight * reach.array() / (1 + (difference / half).array().square());
 }
 
 }  // namespace
 
+CurvatureWeights reachable_differences(const PixelGrid& grid, const std::vector<unsigned char>& cut_right,
+                                       const std::vector<unsigned char>& cut_down) {
+  return {reachable(grid, kLeft, kRight, cut_right), reachable(grid, kUp, kDown, cut_down)};
+}
+
 CurvaturePrior::CurvaturePrior(const PixelGrid& grid, const std::vector<unsigned char>& cut_right,
                                const std::vector<unsigned char>& cut_down)
-    : across_(second_differences(grid, kLeft, kRight, cut_right)),
-      down_(second_differences(grid, kUp, kDown, cut_down)) {}
+    : grid_(grid), reach_(reachable_differences(grid, cut_right, cut_down)) {}
 
-Smoothness CurvaturePrior::at(const Eigen::VectorXd& zeta, double weight) const {
-  const Eigen::VectorXd across = across_ * zeta, down = down_ * zeta;
+CurvatureWeights CurvaturePrior::at(const Eigen::VectorXd& zeta, double weight) const {
+  const Eigen::VectorXd across = differences(grid_, kLeft, kRight, reach_.across, zeta);
+  const Eigen::VectorXd down = differences(grid_, kUp, kDown, reach_.down, zeta);
   const double half = kEdge * deviation(across, down);
-  return Smoothness(weighted_square(across_, across, half, weight) +
-                    weighted_square(down_, down, half, weight));
+  return {sparing_edges(reach_.across, across, half, weight), sparing_edges(reach_.down, down, half, weight)};
 }
 
 }  // namespace rakelight

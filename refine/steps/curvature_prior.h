@@ -10,25 +10,30 @@
 // in depth error what it gains in normals.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <vector>
 
-#include "refine/pixel_grid.h"
-#include "refine/steps/smooth_depth_step.h"
+#include "refine/solver/curvature.h"
 
 namespace rakelight {
 
+/// Weight 1 where both neighbours can be reached, 0 where one is outside the mask or across a cut, so that neither
+/// border nor jump is pulled flat.
+/// @param cut_right, cut_down  1 where the step to that neighbour crosses a depth jump; may be empty.
+CurvatureWeights reachable_differences(const PixelGrid& grid, const std::vector<unsigned char>& cut_right,
+                                       const std::vector<unsigned char>& cut_down);
+
 class CurvaturePrior {
  public:
-  /// @param cut_right, cut_down  1 where the step to that neighbour crosses a depth jump; may be empty.
+  /// @param grid must outlive this  @param cut_right, cut_down  see reachable_differences
   CurvaturePrior(const PixelGrid& grid, const std::vector<unsigned char>& cut_right,
                  const std::vector<unsigned char>& cut_down);
 
   /// The term above with weights made at zeta. @param weight lambda_l
-  Smoothness at(const Eigen::VectorXd& zeta, double weight) const;
+  CurvatureWeights at(const Eigen::VectorXd& zeta, double weight) const;
 
  private:
-  Eigen::SparseMatrix<double> across_, down_;
+  const PixelGrid& grid_;
+  CurvatureWeights reach_;
 };
 
 }  // namespace rakelight

@@ -188,7 +188,9 @@ double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta) {
     }
     return sum;
   });
-  return photometric + prior_energy(problem.prior, zeta);
+  const double smoothness =
+      problem.curvature.empty() ? 0 : curvature_energy(problem.grid, problem.curvature, zeta);
+  return photometric + prior_energy(problem.prior, zeta) + smoothness;
 }
 
 DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
@@ -215,6 +217,10 @@ DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zet
     for (int p = begin; p < end; ++p) gather_rows(problem.grid, rows, p, system);
   });
   add_prior(problem.prior, zeta, system);
+  if (!problem.curvature.empty()) {
+    system.curvature = problem.curvature;
+    system.rhs -= curvature_product(problem.grid, problem.curvature, zeta);
+  }
   return system;
 }
 

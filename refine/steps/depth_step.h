@@ -39,6 +39,7 @@ struct DepthProblem {
   const std::vector<PhotometricTensor>& tensors;
   const std::vector<std::array<float, 4>>& corner_weight;  ///< see corner_weights
   const DepthPrior& prior;
+  CurvatureWeights curvature = {};  ///< smoothness of zeta; empty: none
 };
 
 /// Weight of each corner: 1 / corners of the pixel, divided by sqrt(1 + e / (edge_weight median e)), e its energy at zeta,
@@ -48,7 +49,7 @@ std::vector<std::array<float, 4>> corner_weights(const PixelGrid& grid, const Co
                                                  const std::vector<PhotometricTensor>& tensors,
                                                  const Eigen::VectorXd& zeta, double edge_weight);
 
-/// sum over corners of weight e(n) + the prior's energy.
+/// sum over corners of weight e(n) + the prior's energy + that of the curvature.
 double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta);
 
 /// The system whose solution is the step: half the Hessian's approximation and minus half the gradient at zeta.

@@ -6,7 +6,9 @@
 //     min_x sum_rows (a . (x_u, x_v) - b)^2 + lambda_z |x - x0|^2 + |L x|^2                     Eq. (14), (24)
 #pragma once
 
-#include "refine/steps/smooth_depth_step.h"
+#include "refine/solver/sparse_cholesky.h"
+#include "refine/steps/normals.h"
+#include "refine/steps/smoothness.h"
 
 namespace rakelight {
 

@@ -1,35 +1,43 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How far each pixel's depth and normal can be trusted.
+// How far each pixel's depth and normal can be trusted: a dependent wild bootstrap of the last depth step (X. Shao, "The
+// Dependent Wild Bootstrap", JASA 2010).
 //
-// Depth: near its minimum the energy is delta' H delta, so depth errors are normal with covariance s^2 inv(H), s^2 the
-// variance of a residual. The diagonal of inv(H) is not computed: samples L'^-1 xi of that distribution are cheap once
-// H = L L' is there, and their spread, smoothed over neighbours, is what is wanted.
-//
-// Normals: what highlights, shadows and a wrong lamp do to them differs from lamp to lamp. So the last step is taken
-// again without each quarter of the images (a grouped jackknife), and the normals' spread is the error that residuals,
-// which know nothing of their own correlation, cannot show.
+// Near the minimum the depth answers to its data linearly: H dz = change of the right-hand side. The data's own residuals
+// are their best known errors, so they are multiplied by random numbers of mean 0 and variance 1, the system is solved for
+// that change, and the spread of the solutions over some draws is the error bar.
+//   Sensor: reading minus refined depth, times a smooth random field. Errors keep their local size, at jumps and rims too,
+//           and are correlated over the field's reach, as those of block matching are.
+//   Images: image minus model, times one number an image: what highlights, shadows and a wrong lamp do differs from lamp to
+//           lamp and is broad within one. The albedo follows. Errors that all images share leave no residual that tells
+//           them; they are taken to be in proportion (kSharedErrors).
+//   Normals, besides: relief near the pixel's size, which no grid can hold, shows as change between neighbours.
 #pragma once
 
-#include "refine/pixel_grid.h"
+#include "refine/observations.h"
 #include "refine/solver/depth_solver.h"
 #include "refine/steps/depth_step.h"
-#include "refine/steps/normals.h"
+#include "refine/surface_state.h"
 
 namespace rakelight {
 
-/// One standard deviation a pixel.
+/// One standard deviation of each pixel.
 struct Uncertainty {
   Eigen::VectorXd depth;   ///< metres
   Eigen::VectorXd normal;  ///< radians, root mean square angle
 };
 
-/// @param depth the last step's problem  @param images, state what its tensors were made of
-/// @param solver has solved the last system; is used again  @param residual_deviation s above
-/// @param samples 0: an empty result. The samples are the same at every call: the result is reproducible.
-Uncertainty estimate_uncertainty(const DepthProblem& depth, const Observations& images, const SurfaceState& state,
-                                 const DepthOptions& options, DepthSolver& solver, double residual_deviation,
-                                 int samples);
+/// @param depth the last step's problem  @param scale refined grid / depth grid
+/// @param images, state what the problem's tensors were made of  @param draws of the bootstrap; 0: an empty result
+/// The draws are the same at every call: the result is reproducible.
+Uncertainty estimate_uncertainty(const DepthProblem& depth, int scale, const Observations& images,
+                                 const SurfaceState& state, DepthSolver& solver, int draws);
+
+/// Change of h - G n (PhotometricTensor) a unit of t when image i becomes I + t factor_i r, r = I - rho S, the albedo
+/// following: sum_i factor_i w rho l r + sum_i w l (r - rho S) drho, drho = sum_i factor_i w S r / sum_i w S^2.
+/// @param factor one an image  @return 3 x pixels
+Eigen::Matrix3Xf h_of_scaled_residuals(const Observations& images, const SurfaceState& state,
+                                       const std::vector<float>& factor);
 
 }  // namespace rakelight

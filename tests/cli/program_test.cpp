@@ -40,6 +40,10 @@ INSTANTIATE_TEST_SUITE_P(Of, EveryCommand, testing::Values("refine", "evaluate",
 INSTANTIATE_TEST_SUITE_P(OfSimulation, EveryCommand, testing::Values("simulate"), name_of);
 #endif
 
+#ifdef RAKELIGHT_HAS_CAPTURE
+INSTANTIATE_TEST_SUITE_P(OfCapture, EveryCommand, testing::Values("doctor", "lights"), name_of);
+#endif
+
 TEST(Program, ShowsAnOverviewWithExamplesAndExitCodes) {
   const Ran ran = run({"--help"});
   EXPECT_EQ(ran.exit_code, 0);

@@ -69,6 +69,23 @@ TEST_F(Refine, PrintsOneJsonObjectAndNothingElse) {
   EXPECT_EQ(json.at("scale"), 1);
 }
 
+TEST_F(Refine, NamesAReportThatShowsEveryFrame) {
+  const Ran ran = refine();
+  EXPECT_THAT(ran.out, HasSubstr((out() / "report.html").string()));
+  const std::string page = text_of(out() / "report.html");
+  for (const Frame& frame : bump_stack().frames)
+    EXPECT_THAT(page, HasSubstr("{\"index\":" + std::to_string(frame.index) + ","));
+}
+
+TEST_F(Refine, IsEvaluatedWithFiguresOfTheErrors) {
+  ASSERT_EQ(refine().exit_code, 0);
+  const Ran ran = run({"evaluate", out(), "--truth", scan(), "--plots", folder_ / "figures"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  for (const char* name :
+       {"depth_error.png", "normal_error.png", "depth_histogram.png", "normal_histogram.png"})
+    EXPECT_TRUE(fs::exists(folder_ / "figures" / name)) << name;
+}
+
 TEST_F(Refine, BringsTheSurfaceNearerToTheTruth) {
   ASSERT_EQ(refine().exit_code, 0);
   const Ran ran = run({"evaluate", out(), "--truth", scan(), "--json"});

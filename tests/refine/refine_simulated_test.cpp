@@ -64,22 +64,45 @@ TEST(RefineSimulated, ACoinComesOutSharpAtTwiceTheDepthsResolution) {
   expect_at_most(refine_simulated(rig(Realism::real, SceneKind::coin, 2), Preset::robust), 1.0, 0.72);
 }
 
+/// Root mean square distance between two surfaces, mm.
+double distance_mm(const cv::Mat1f& a, const cv::Mat1f& b) {
+  const cv::Mat1f difference(a - b);
+  const cv::Mat1b known = cv::Mat(difference == difference);  // NaN outside
+  return 1000 * cv::norm(difference, cv::NORM_L2, known) / std::sqrt(cv::countNonZero(known));
+}
+
+TEST(RefineSimulated, CrosstalkThatTheStackTellsIsUndone) {
+  SimulateOptions options = rig(Realism::ideal, SceneKind::vase, 1);
+  options.lamps.count = 0;
+  options.lamps.rgb = true;
+  const RefineOptions by_ratio = preset_options(Preset::robust, Method::rgb_ratio);
+  const RefineResult clean = refine_depth(simulate_stack(options).stack, by_ratio);
+  options.image.crosstalk = 0.15;
+  LightStack leaky = simulate_stack(options).stack;
+  const RefineResult undone = refine_depth(leaky, by_ratio);
+  leaky.color_crosstalk.setIdentity();
+  const RefineResult ignored = refine_depth(leaky, by_ratio);
+  EXPECT_LT(distance_mm(undone.depth, clean.depth), 0.5 * distance_mm(ignored.depth, clean.depth));
+}
+
+/// Mean over scans that err in different ways: flat and round, with and without occlusions, far lamps and near.
 TEST(RefineSimulated, ErrorBarsHoldAboutTwoThirdsOfTheErrors) {
+  const std::pair<SceneKind, bool> scans[] = {
+      {SceneKind::vase, false}, {SceneKind::coin, false}, {SceneKind::drape, false}, {SceneKind::vase, true}};
   double depth = 0, normals = 0;
-  const SceneKind scenes[] = {SceneKind::vase, SceneKind::coin, SceneKind::drape, SceneKind::sphere};
-  for (const SceneKind scene : scenes) {
+  for (const auto& [scene, near] : scans) {
     SimulateOptions options = rig(Realism::real, scene, 1);
     options.width = 320;
     options.height = 240;
     options.lamps.count = 12;
+    options.lamps.near = near;
     const Simulated scan = simulate_stack(options);
     const RefineResult result = refine_depth(scan.stack, preset_options(Preset::robust));
     const ErrorBarReport bars =
         evaluate_error_bars(result.camera, result.depth, result.normals, result.uncertainty, scan.truth);
-    EXPECT_GT(std::min(bars.depth_within, bars.normal_within), 0.5) << static_cast<int>(scene);
-    EXPECT_LT(std::max(bars.depth_within, bars.normal_within), 0.9) << static_cast<int>(scene);
-    depth += bars.depth_within / std::size(scenes);
-    normals += bars.normal_within / std::size(scenes);
+    EXPECT_GT(std::min(bars.depth_within, bars.normal_within), 0.45) << static_cast<int>(scene);
+    depth += bars.depth_within / std::size(scans);
+    normals += bars.normal_within / std::size(scans);
   }
   EXPECT_NEAR(depth, 0.675, 0.075);
   EXPECT_NEAR(normals, 0.675, 0.075);
@@ -88,7 +111,8 @@ TEST(RefineSimulated, ErrorBarsHoldAboutTwoThirdsOfTheErrors) {
 /// Where broad lamp `k` of `count` stands.
 cv::Vec3f toward_broad_lamp(size_t k, size_t count) {
   const double angle = 2 * CV_PI * static_cast<double>(k) / static_cast<double>(count);
-  return cv::Vec3f(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), -1) / std::sqrt(2.0f);
+  return cv::Vec3f(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), -1) /
+         std::sqrt(2.0f);
 }
 
 /// A sphere under broad lamps of shading 0.2 + 0.4 t.n + 0.4 (t.n)^2: no shadow has an edge, and the shading bends with n.
@@ -118,7 +142,8 @@ cv::Vec2d agreement_with_broad_lamps(const RefineResult& result) {
   for (size_t k = 0; k < result.lights.size(); ++k) {
     const cv::Vec3d t = toward_broad_lamp(k, result.lights.size());
     const Eigen::Matrix<double, 1, 5> found = result.lights[k].second_order_rgb->row(0);
-    const double truth[] = {t[0] * t[0] - 1.0 / 3, t[1] * t[1] - 1.0 / 3, t[0] * t[1], t[0] * t[2], t[1] * t[2]};
+    const double truth[] = {t[0] * t[0] - 1.0 / 3, t[1] * t[1] - 1.0 / 3, t[0] * t[1], t[0] * t[2],
+                            t[1] * t[2]};
     for (int j = 0; j < 5; ++j) {
       both += found[j] * truth[j];
       found2 += found[j] * found[j];

@@ -50,10 +50,10 @@ void expect_same(const cv::Mat_<T>& a, const cv::Mat_<T>& b) {
 TEST(ResultIo, WritesEveryFileOfTheFormatAndLeavesNothingBeside) {
   const test::TemporaryFolder folder;
   write_result(test::sample_result(), folder / "out");
-  EXPECT_EQ(
-      names_in(folder / "out"),
-      (std::set<std::string>{"depth.tiff", "depth.png", "initial_depth.tiff", "normals.tiff", "normals.png",
-                             "albedo.tiff", "albedo.png", "mesh.ply", "before_after.png", "result.json"}));
+  EXPECT_EQ(names_in(folder / "out"),
+            (std::set<std::string>{"depth.tiff", "depth.png", "initial_depth.tiff", "normals.tiff",
+                                   "normals.png", "albedo.tiff", "albedo.png", "mesh.ply", "mesh.glb",
+                                   "before_after.png", "report.html", "result.json"}));
   EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"out"});
 }
 
@@ -161,7 +161,7 @@ TEST(ResultIo, RefusesASecondWriterAtTheSameTime) {
 }
 
 TEST(ResultIo, KeepsTheEarlierResultWhenTheDiskIsFull) {
-  const test::TinyDisk disk(96);
+  const test::TinyDisk disk(256);
   if (!disk.mounted()) GTEST_SKIP() << "needs root to mount a small tmpfs";
   write_result(test::sample_result(), disk.path() / "out");
   const std::string before = text_of(disk.path() / "out/result.json");

@@ -73,16 +73,5 @@ TEST(CholeskyDepthSolver, RefusesNumbersThatAreNone) {
   EXPECT_FALSE(solver->solve(random.system, x));
 }
 
-TEST(CholeskyDepthSolver, ItsSamplesHaveTheInverseMatrixAsCovariance) {
-  const RandomSystem random(3);
-  const auto solver = make_cholesky_depth_solver(random.grid, random.cells);
-  Eigen::VectorXd x;
-  ASSERT_TRUE(solver->solve(random.system, x));
-  // A sample is linear in the white noise, x = S w; its covariance is S S' exactly.
-  Eigen::MatrixXd S(random.grid.size(), random.grid.size());
-  for (Eigen::Index i = 0; i < S.cols(); ++i) S.col(i) = solver->sample(Eigen::VectorXd::Unit(S.cols(), i));
-  EXPECT_TRUE((S * S.transpose()).isApprox(random.dense().inverse(), 1e-10));
-}
-
 }  // namespace
 }  // namespace rakelight

@@ -52,15 +52,6 @@ TEST(SparseCholesky, SaysWhenTheMatrixIsNotPositiveDefiniteAndRecovers) {
   EXPECT_TRUE(cholesky.factorize(lower_of(A)));
 }
 
-TEST(SparseCholesky, ASampleOfWhiteNoiseHasTheInverseAsCovariance) {
-  const Eigen::MatrixXd A = random_definite(9, 4);
-  SparseCholesky cholesky;
-  ASSERT_TRUE(cholesky.factorize(lower_of(A)));
-  Eigen::MatrixXd S(9, 9);
-  for (Eigen::Index i = 0; i < 9; ++i) S.col(i) = cholesky.sample(Eigen::VectorXd::Unit(9, i));
-  EXPECT_TRUE((S * S.transpose()).isApprox(A.inverse(), 1e-10));
-}
-
 TEST(SparseCholesky, TheReciprocalConditionTellsGoodFromBad) {
   SparseCholesky cholesky;
   ASSERT_TRUE(cholesky.factorize(lower_of(Eigen::MatrixXd::Identity(5, 5))));

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "capture/open_rig.h"
+
+#include <filesystem>
+
+#include "capture/oni_file.h"
+#include "capture/openni_source.h"
+#include "capture/replay_source.h"
+#include "capture/rig_lights.h"
+#include "capture/virtual_sensor.h"
+#include "stack/stack_io.h"
+
+namespace rakelight {
+
+std::unique_ptr<Lights> open_lights(const Rig& rig) {
+  if (!rig.virtual_rig) return open_rig_lights(rig);
+  std::vector<std::string> ids;
+  for (const RigLamp& lamp : rig.lamps) ids.push_back(lamp.id);
+  LightsOptions options;
+  options.max_on = std::chrono::milliseconds(rig.max_on_ms);
+  return std::make_unique<Lights>(std::move(ids), open_virtual_bank(rig), options);
+}
+
+std::unique_ptr<FrameSource> open_frame_source(const Rig& rig) {
+  const std::filesystem::path recording = rig.sensor.uri;
+  if (!rig.virtual_rig && recording.extension() == ".oni")
+    return open_replay_source(import_oni(recording, {}));
+  if (!rig.virtual_rig && std::filesystem::is_directory(recording))
+    return open_replay_source(read_stack(recording));
+  return open_openni_source(rig);
+}
+
+}  // namespace rakelight

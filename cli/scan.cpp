@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "capture/auto_mask.h"
+#include "capture/capture.h"
+#include "capture/open_rig.h"
+#include "capture/rig_file.h"
+#include "capture/scan_folder.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "refine/output/result_io.h"
+#include "refine/refine.h"
+#include "stack/errors.h"
+#include "stack/stack_io.h"
+
+namespace rakelight::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+constexpr int kNotConverged = 7;
+
+struct Arguments {
+  fs::path rig, output, refined;
+  std::string mask;
+  std::optional<int> repeats;
+  std::optional<bool> rgb_shot;
+  int depth_frames = 2;
+  bool resume = false, no_metering = false, json = false;
+};
+
+constexpr const char* kFooter = R"(Examples:
+  rakelight scan -o my-scan                                  the virtual rig: no hardware needed
+  rakelight scan --rig my-rig.toml -o my-scan --mask auto    a sensor and lamps, the object found by itself
+  rakelight scan --rig my-rig.toml -o my-scan --refine out   and refined while the lamps are off
+  rakelight scan --rig my-rig.toml -o my-scan --resume       go on with a scan that was cut off
+  rakelight scan -o my-scan --json | jq .faults              what is wrong with the lamps
+
+A scan that is interrupted (130) or loses its sensor (4) switches the lamps off and keeps the images it has.)";
+
+Rig rig_of(const Arguments& arguments) {
+  return arguments.rig.empty() ? virtual_rig() : read_rig(arguments.rig);
+}
+
+ScanOptions options_of(const Arguments& arguments, ScanFolder& folder) {
+  ScanOptions options;
+  options.repeats = arguments.repeats;
+  options.rgb_shot = arguments.rgb_shot;
+  options.depth_frames = arguments.depth_frames;
+  options.meter = !arguments.no_metering;
+  options.resume = folder.unfinished();
+  options.on_frame = [&folder](const ScanState& state, const Frame& frame) { folder.record(state, frame); };
+  return options;
+}
+
+/// What an interrupted scan leaves, and how to go on.
+std::string kept(ScanFolder& folder, const Arguments& arguments) {
+  folder.flush();
+  const int images = folder.frames_kept();
+  if (images == 0) return "the lamps are off; no image had been taken yet, so nothing is kept";
+  const std::string rig = arguments.rig.empty() ? "" : " --rig " + arguments.rig.string();
+  return "the lamps are off; " + std::to_string(images) + " images are kept in " + folder.place().string() +
+         ": complete the scan with 'rakelight scan" + rig + " -o " + arguments.output.string() + " --resume'";
+}
+
+ScanResult scan_with_bar(const Rig& rig, const Arguments& arguments, ScanFolder& folder) {
+  ProgressBar bar;
+  const auto show = [&bar](const ScanProgress& progress) {
+    bar.show({progress.stage, progress.fraction_done});
+    return !interrupted();
+  };
+  try {
+    const auto lights = open_lights(rig);  // first: it forks the lamps' guard, before there are threads
+    const auto source = open_frame_source(rig);
+    return capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder), show);
+  } catch (const Cancelled&) { throw Cancelled(kept(folder, arguments)); } catch (const SensorLost& lost) {
+    throw DeviceError(std::string(lost.what()) + "; " + kept(folder, arguments));
+  }
+}
+
+void put_mask(LightStack& stack, const std::string& mask) {
+  if (mask.empty()) return;
+  stack.mask = mask == "auto" ? auto_mask(stack) : read_mask(mask);
+  if (stack.mask.empty())
+    spdlog::warn("scan: no object stands out in depth and light, so the stack has no mask");
+}
+
+RefineResult refine_with_bar(const LightStack& stack) {
+  ProgressBar bar;
+  return refine_depth(stack, RefineOptions(), [&bar](const Progress& progress) {
+    bar.show(progress);
+    return !interrupted();
+  });
+}
+
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
+
+json faults_json(const std::vector<LampFault>& faults) {
+  json list = json::array();
+  for (const LampFault& fault : faults) {
+    json entry = {{"kind", to_string(fault.kind)}, {"lamp", fault.lamp}};
+    if (!fault.other.empty()) entry["other"] = fault.other;
+    entry["level"] = rounded(fault.level, 1000);
+    entry["message"] = fault.message;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+json report_json(const ScanResult& scan, const Arguments& arguments) {
+  const LightStack& stack = scan.stack;
+  return {{"stack", arguments.output.string()},
+          {"lights", stack.lights.size()},
+          {"frames", stack.frames.size()},
+          {"sensor_time_ms", rounded(scan.sensor_time_us / 1000, 10)},
+          {"lag_ms", rounded(scan.lag_us / 1000, 100)},
+          {"exposure_us", stack.exposure_us.value_or(0)},
+          {"gain", stack.gain.value_or(0)},
+          {"saturated_share", rounded(scan.saturated, 1e5)},
+          {"retaken", scan.retaken},
+          {"dropped", scan.dropped},
+          {"faults", faults_json(scan.faults)},
+          {"warnings", scan.warnings}};
+}
+
+void print_report(const ScanResult& scan, const Arguments& arguments) {
+  const LightStack& stack = scan.stack;
+  std::printf("%s: %zu lights, %zu frames, colour %dx%d, depth %dx%d\n", arguments.output.c_str(),
+              stack.lights.size(), stack.frames.size(), stack.color_camera.width, stack.color_camera.height,
+              stack.depth_camera.width, stack.depth_camera.height);
+  std::printf("  sequence  %.0f ms of sensor time, %d images taken again, %d frames dropped\n",
+              scan.sensor_time_us / 1000, scan.retaken, scan.dropped);
+  std::printf("  exposure  %.1f ms, gain %g: %.2f %% of the object saturated\n",
+              stack.exposure_us.value_or(0) / 1000, stack.gain.value_or(0), scan.saturated * 100);
+  std::fflush(stdout);
+}
+
+int refine_and_write(const LightStack& stack, const Arguments& arguments, json& report) {
+  const RefineResult result = refine_with_bar(stack);
+  for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
+  write_result(result, arguments.refined);
+  report["refined"] = arguments.refined.string();
+  report["refined_message"] = result.message;
+  if (!arguments.json) {
+    std::printf("%s: %s\n  picture   %s\n", arguments.refined.c_str(), result.message.c_str(),
+                (arguments.refined / "before_after.png").c_str());
+  }
+  return result.termination == Termination::diverged ? kNotConverged : 0;
+}
+
+int run(const Arguments& arguments) {
+  catch_interrupts();
+  const Rig rig = rig_of(arguments);
+  if (!arguments.refined.empty()) check_result_folder(arguments.refined);
+  ScanFolder folder(arguments.output, arguments.resume);
+  ScanResult scan = scan_with_bar(rig, arguments, folder);
+  put_mask(scan.stack, arguments.mask);
+  folder.finish(scan.stack);
+  for (const std::string& warning : scan.warnings) spdlog::warn("scan: {}", warning);
+  if (!arguments.json) print_report(scan, arguments);
+  json report = report_json(scan, arguments);
+  const int exit_code = arguments.refined.empty() ? 0 : refine_and_write(scan.stack, arguments, report);
+  if (arguments.json) std::cout << report.dump(2) << "\n";
+  return exit_code;
+}
+
+}  // namespace
+
+void add_scan_command(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("scan", "Run the light sequence on a sensor and write a stack");
+  command->footer(kFooter);
+  command->add_option("-o,--output", arguments->output, "Stack folder to write")
+      ->required()
+      ->type_name("STACK");
+  command->add_option("--rig", arguments->rig, "What stands on the table; default: the virtual rig")
+      ->type_name("RIG.toml");
+  command->add_option("--refine", arguments->refined, "Refine, too, and write the result here")
+      ->type_name("OUT");
+  command
+      ->add_option("--mask", arguments->mask,
+                   "Mask image (255 = object), or auto: what is lit and stands in the middle by depth.\n"
+                   "Without it every pixel with depth is the object")
+      ->type_name("FILE|auto");
+  command->add_flag("--resume", arguments->resume, "Complete an unfinished scan, if there is one");
+  command->add_option("--repeats", arguments->repeats, "Images a lamp, instead of what the rig file says")
+      ->check(CLI::Range(1, 64));
+  command->add_flag_function(
+      "--rgb,!--no-rgb", [arguments](std::int64_t count) { arguments->rgb_shot = count > 0; },
+      "One image under the red, green and blue lamps at once, or none");
+  command->add_option("--depth-frames", arguments->depth_frames, "Depth frames kept an image; default: 2")
+      ->check(CLI::Range(1, 8));
+  command->add_flag("--no-metering", arguments->no_metering,
+                    "Take the rig file's exposure and gain as they are");
+  command->add_flag("--json", arguments->json, "Print one JSON object on stdout and nothing else there");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace rakelight::cli

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How a program talks to our OpenNI2 driver beyond what OpenNI2 has words for: addresses, and private properties that
+// openni::Device::setProperty and openni::VideoStream::setProperty hand through. Constants only: nothing to link.
+#pragma once
+
+#include <cstdint>
+
+namespace rakelight::driver_protocol {
+
+/// A virtual sensor that looks at a simulated scene under virtual lamps. It is found by this address only, never by search.
+constexpr const char* kVirtualUri = "rakelight-virtual";
+/// A device whose frames the program itself hands in, so that OpenNI2's recorder can write them.
+constexpr const char* kFeedUri = "rakelight-feed";
+
+/// Device, text: what the device shall be. Virtual: JSON as virtual_sensor/setup.h says; the scene is rendered before
+/// the call returns. Feed: FeedSetup. Not while a stream runs.
+constexpr int kSetup = 0x1D270002;
+/// Virtual device, a byte a lamp (0 off, 1 on) in the setup's order: the lines' levels from now on.
+constexpr int kLamps = 0x1D270001;
+/// Feed stream, PushedFrame: goes through as a frame of the stream at once.
+constexpr int kPushFrame = 0x1D270003;
+
+struct FeedStream {
+  std::int32_t width, height;
+  float horizontal_fov, vertical_fov;  ///< radians
+};
+struct FeedSetup {
+  FeedStream color, depth;
+};
+struct PushedFrame {
+  const void* pixels;  ///< rows without gaps: R, G, B bytes, or 16-bit depth in units of 100 um
+  std::int32_t index;
+  std::uint64_t timestamp_us;
+};
+
+}  // namespace rakelight::driver_protocol

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/virtual_sensor/driver/virtual_device.h"
+
+#include "simulate/virtual_sensor/driver/color_stream.h"
+#include "simulate/virtual_sensor/driver/depth_stream.h"
+#include "simulate/virtual_sensor/driver/protocol.h"
+
+namespace rakelight {
+
+VirtualDevice::VirtualDevice(std::function<void()> on_unplug, ReportError report)
+    : report_(std::move(report)), rig_(std::make_shared<VirtualRigState>(std::move(on_unplug))) {
+  infos_.set(color_modes(rig_->setup().color_size), depth_modes(rig_->setup().depth_size));
+}
+
+oni::driver::StreamBase* VirtualDevice::createStream(OniSensorType type) {
+  if (type == ONI_SENSOR_COLOR) return new ColorStream(rig_);
+  if (type == ONI_SENSOR_DEPTH) return new DepthStream(rig_);
+  return nullptr;
+}
+
+OniStatus VirtualDevice::set_up(const std::string& text) {
+  try {
+    rig_->set_up(text);
+    infos_.set(color_modes(rig_->setup().color_size), depth_modes(rig_->setup().depth_size));
+    return ONI_STATUS_OK;
+  } catch (const std::exception& error) {
+    report_(error.what());
+    return ONI_STATUS_BAD_PARAMETER;
+  }
+}
+
+OniStatus VirtualDevice::setProperty(int id, const void* data, int size) {
+  const auto* bytes = static_cast<const char*>(data);
+  if (id == driver_protocol::kSetup) return set_up(std::string(bytes, bytes + size));
+  if (id == driver_protocol::kLamps) {
+    const std::vector<bool> lines(bytes, bytes + size);
+    return rig_->write_lamps(lines) ? ONI_STATUS_OK : ONI_STATUS_BAD_PARAMETER;
+  }
+  if (id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION &&
+      size == static_cast<int>(sizeof(OniImageRegistrationMode))) {
+    rig_->set_registered(*static_cast<const OniImageRegistrationMode*>(data) ==
+                         ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR);
+    return ONI_STATUS_OK;
+  }
+  return ONI_STATUS_NOT_SUPPORTED;
+}
+
+OniStatus VirtualDevice::getProperty(int id, void* data, int* size) {
+  if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION) return ONI_STATUS_NOT_SUPPORTED;
+  const OniImageRegistrationMode mode =
+      rig_->registered() ? ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR : ONI_IMAGE_REGISTRATION_OFF;
+  return answer(mode, data, size);
+}
+
+OniBool VirtualDevice::isPropertySupported(int id) {
+  return static_cast<OniBool>(id == driver_protocol::kSetup || id == driver_protocol::kLamps ||
+                              id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION);
+}
+
+}  // namespace rakelight
