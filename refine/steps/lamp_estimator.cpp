@@ -8,6 +8,7 @@
 
 #include "refine/steps/albedo.h"
 #include "refine/steps/lighting.h"
+#include "refine/steps/near_lamp_search.h"
 #include "refine/steps/robust_weights.h"
 #include "stack/errors.h"
 
@@ -73,17 +74,28 @@ void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior
     state.lamps = estimate_far_lamps(images, state);
     return;
   }
-  NearLampOptions fit;
-  fit.max_inverse_distance = kMaxInverseDistance;
-  fit.fixed_positions = options_.positions == LampPositions::fixed;
   const std::vector<Lamp> before = state.lamps;
   const BroadShape shape{problem.grid, prior};
-  state.zeta += fit_near_lamps(images, &shape, fit, state);
+  state.zeta += fit_near_lamps(images, &shape, fit_options(), state);
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   state.albedo = estimate_albedo(images, state);  // the fit eliminated it: the old one knows nothing of these lamps
   settled_ = turn_at_rim(before, state.lamps, object_radius(state)) < kSettledTurn;
   if (options_.model == LampModel::automatic && iteration == kChoice) choose(images, state);
+}
+
+std::vector<LampUncertainty> LampEstimator::uncertainty(const RefineProblem& problem, const DepthPrior& prior,
+                                                        const SurfaceState& state) const {
+  if (!near_) return {};
+  const BroadShape shape{problem.grid, prior};
+  return near_lamp_uncertainty(problem.images, &shape, fit_options(), state);
+}
+
+NearLampOptions LampEstimator::fit_options() const {
+  NearLampOptions fit;
+  fit.max_inverse_distance = kMaxInverseDistance;
+  fit.fixed_positions = options_.positions == LampPositions::fixed;
+  return fit;
 }
 
 void LampEstimator::start_near(const Observations& images, SurfaceState& state) {

@@ -28,6 +28,10 @@ class LampEstimator {
   /// Whether the last update moved the lamps too little to matter.
   bool settled() const { return settled_; }
 
+  /// Of each lamp's position, after the last update; empty where all lamps are far.
+  std::vector<LampUncertainty> uncertainty(const RefineProblem& problem, const DepthPrior& prior,
+                                           const SurfaceState& state) const;
+
   /// One sentence: the model used, and why.
   std::string explanation() const { return explanation_; }
 
@@ -35,6 +39,7 @@ class LampEstimator {
   double far_over_near() const { return far_over_near_; }
 
  private:
+  NearLampOptions fit_options() const;
   void start_near(const Observations& images, SurfaceState& state);
   void choose(const Observations& images, SurfaceState& state);
 

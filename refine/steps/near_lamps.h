@@ -11,14 +11,13 @@
 //
 //   lamps   9 a lamp: direction (2), inverse distance, strength (3), ambient share (3)
 //   aim     3: the point that the lamps' axes meet in
-//   shape   7: B c, the broad changes of log depth 1, x, y, x^2, xy, y^2 and zeta, which span what light from unknown
-//           directions leaves open (the bas-relief ambiguity)
+//   shape   7: B c, the broad changes of log depth (refine/steps/broad_shape.h)
 //   albedo  3 a pixel, eliminated exactly: only what no albedo explains counts (variable projection; Kaufman's
 //           Jacobian), a rank-one term a pixel and channel.
 #pragma once
 
 #include "refine/observations.h"
-#include "refine/steps/super_resolution.h"
+#include "refine/steps/broad_shape.h"
 #include "refine/surface_state.h"
 
 namespace rakelight {
@@ -28,12 +27,6 @@ struct NearLampOptions {
   int pixels = 4000;                ///< about so many pixels are used, evenly spread
   float max_inverse_distance = 10;  ///< 1/m: no lamp is taken to stand nearer than this to the centre
   bool fixed_positions = false;     ///< fit strength and ambient share only
-};
-
-/// The surface that the lamps are fitted with, and what holds it.
-struct BroadShape {
-  const PixelGrid& grid;
-  const DepthPrior& prior;
 };
 
 /// What the fit knows of a lamp's position.
@@ -46,29 +39,16 @@ struct LampUncertainty {
 /// A near lamp started from a far one: its direction, its strength, and the given inverse distance.
 Lamp near_from_far(const Lamp& far, float inverse_distance);
 
-/// Looks for each near lamp of the state all over the space before the object, given shape and albedo: a start that no
-/// local minimum holds back. @return the state's lamps, the near ones where they explain their image best
-std::vector<Lamp> search_near_lamps(const Observations& images, const SurfaceState& state);
-
-/// Improves the state's near lamps and their aim (scene.center). Far lamps stay.
+/// Improves the state's near lamps and their aim (scene.center). Far lamps stay. Strength is found up to one factor a
+/// channel, the same for all lamps: the albedo takes the rest.
 /// @param shape nullptr: the surface is held; else @return holds the change of zeta that goes with the lamps
 Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape, const NearLampOptions& options,
                                SurfaceState& state);
 
-/// max(0, v.n) of the near model (refine/lamp.h) and its derivatives. A channel's shading is e_c value + phi_c.
-struct Incidence {
-  float value = 0;
-  Eigen::Vector3f lamp = Eigen::Vector3f::Zero();    ///< by the direction along two tangents and by kappa
-  Eigen::Vector3f aim = Eigen::Vector3f::Zero();     ///< by the centre, the lamp's place held
-  Eigen::Vector3f point = Eigen::Vector3f::Zero();   ///< by the surface point
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< by the normal
-};
-
-/// @param offset p - centre, metres  @param derivatives false: leave them zero
-Incidence incidence_of(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents, const Eigen::Vector3f& offset,
-                       const Eigen::Vector3f& normal, float lobe_exponent, bool derivatives = true);
-
-/// Position uncertainty of each lamp from the curvature of the joint fit and the residuals.
+/// Position uncertainty of each lamp, the state being fitted: a jackknife over regions of the picture. Errors of the
+/// model (highlights, shadows, the sensor's depth) agree between neighbouring pixels and between images, so residuals
+/// taken as independent promise far too much; how the fit changes when a region is left out shows what they do to it. One
+/// Gauss-Newton step stands for each refit. Errors that the whole picture shares do not show.
 std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, const BroadShape* shape,
                                                    const NearLampOptions& options, const SurfaceState& state);
 

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "refine/steps/near_lamp_equations.h"
+#include "refine/steps/near_lamp_incidence.h"
 #include "tests/refine/exact_surface.h"
 
 namespace rakelight {
