@@ -105,6 +105,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   for (int t = 1; t <= options.max_iterations; ++t) {
     IterationReport report;
     report.index = t;
+    const Eigen::VectorXd before = state.zeta;  // lamps carry the broad shape along: the depth step may only undo that
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
     state.points = surface_points(problem.grid, state.zeta);
 
@@ -123,7 +124,6 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     const double edge_weight = t > kWarmUp ? options.trust.edge_weight : 0;
     weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
     const DepthProblem depth{problem.grid, problem.corners, tensors, weights, prior};
-    const Eigen::VectorXd before = state.zeta;
     const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (32), (34)
 
     report.energy_before_depth = step.energy_before;
