@@ -71,10 +71,10 @@ Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* sha
                                SurfaceState& state) {
   const NearLampProblem problem(images, shape, state, options.pixels);
   Unknowns at{state.lamps, state.scene};
-  double damping = 1e-4, variance = -1;
+  double damping = 1e-4;
   for (int step = 0; step < options.steps; ++step) {
     NearLampEquations equations = sum_of(problem.equations(at));
-    if (variance < 0) variance = error_variance(equations);
+    const double variance = error_variance(equations);
     equations += problem.prior(at, variance);
     lock_unknowns(at, options.fixed_positions, shape == nullptr, equations);
     const double before = problem.energy(at) + problem.prior(at, variance).energy;
