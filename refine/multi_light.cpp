@@ -105,7 +105,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   for (int t = 1; t <= options.max_iterations; ++t) {
     IterationReport report;
     report.index = t;
-    const Eigen::VectorXd before = state.zeta;  // lamps carry the broad shape along: the depth step may only undo that
+    const Eigen::VectorXd before = state.zeta;  // the lamps carry the broad shape along, which may undo a depth step
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
     state.points = surface_points(problem.grid, state.zeta);
 

@@ -22,12 +22,12 @@ struct BroadShape {
 /// One surface point and how the broad changes move it.
 struct BroadPixel {
   int p = 0;
-  Eigen::Vector3f point, normal;                              ///< at c = 0
-  BroadChanges B = BroadChanges::Zero();                      ///< d zeta / d c
+  Eigen::Vector3f point, normal;          ///< at c = 0
+  BroadChanges B = BroadChanges::Zero();  ///< d zeta / d c
   Eigen::Matrix<float, 3, kBroadChanges> normal_by_c =
-      Eigen::Matrix<float, 3, kBroadChanges>::Zero();         ///< d n / d c
-  double prior_weight = 0;                                    ///< lambda_z of the pixel
-  double prior_miss = 0;                                      ///< zeta - z0
+      Eigen::Matrix<float, 3, kBroadChanges>::Zero();  ///< d n / d c
+  double prior_weight = 0;                             ///< lambda_z of the pixel
+  double prior_miss = 0;                               ///< zeta - z0
 };
 
 /// B at pixel p.

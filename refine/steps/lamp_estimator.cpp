@@ -16,11 +16,11 @@ namespace rakelight {
 namespace {
 
 constexpr int kFirstNear =
-    4;                       // outer iteration: far lamps of a noisy shape are good enough as a start by then
-constexpr int kChoice = 8;   // outer iteration: the near fit has settled enough to be compared
+    4;                      // outer iteration: far lamps of a noisy shape are good enough as a start by then
+constexpr int kChoice = 8;  // outer iteration: the near fit has settled enough to be compared
 constexpr float kStartInverseDistance = 1.0f;  // 1/m; 0.5, 1 and 2 m were seen to reach the same point
 constexpr double kClearlyBetter = 1.02;        // far residual / near residual above which near lamps stay
-constexpr int kSearchRounds = 4;  // of lamps and albedo in turn
+constexpr int kSearchRounds = 4;               // of lamps and albedo in turn
 constexpr float kMaxInverseDistance = 10.0f;
 constexpr double kSettledTurn = 2e-4;  // radians an iteration
 
@@ -69,7 +69,8 @@ LampEstimator::LampEstimator(const LampOptions& options) : options_(options) {
   if (options.harmonics == 2) explanation_ = "far lamps with second-order harmonics: asked for";
 }
 
-void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior, SurfaceState& state, int iteration) {
+void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior, SurfaceState& state,
+                           int iteration) {
   const Observations& images = problem.images;
   const int first_near = options_.positions == LampPositions::estimated ? kFirstNear : 2;
   const bool may_be_near = options_.model != LampModel::far && options_.harmonics == 1;
@@ -83,7 +84,8 @@ void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior
   state.zeta += fit_near_lamps(images, &shape, fit_options(), state);
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
-  state.albedo = estimate_albedo(images, state);  // the fit eliminated it: the old one knows nothing of these lamps
+  state.albedo =
+      estimate_albedo(images, state);  // the fit eliminated it: the old one knows nothing of these lamps
   settled_ = turn_at_rim(before, state.lamps, object_radius(state)) < kSettledTurn;
   if (options_.model == LampModel::automatic && iteration == kChoice) choose(images, state);
 }
@@ -142,9 +144,7 @@ void LampEstimator::choose(const Observations& images, SurfaceState& state) {
   far_over_near_ = near_scale > 0 ? far_scale / near_scale : 1;
   near_ = far_over_near_ > kClearlyBetter;
   settled_ = settled_ || !near_;
-  if (!near_) {
-    state = std::move(far_state_);
-  }
+  if (!near_) { state = std::move(far_state_); }
   explanation_ = with_number(near_ ? "near lamps: the far model's residual is %.2f times as large"
                                    : "far lamps: the near model fits no better (far / near residual %.2f)",
                              far_over_near_);

@@ -10,8 +10,8 @@
 
 #include <string>
 
-#include "refine/problem.h"
 #include "refine/options.h"
+#include "refine/problem.h"
 #include "refine/steps/near_lamps.h"
 #include "refine/surface_state.h"
 

@@ -12,13 +12,17 @@
 namespace rakelight {
 namespace {
 
-constexpr int kAim = NearLampUnknowns::kAim, kShape = NearLampUnknowns::kShape, kShared = NearLampUnknowns::kShared;
-constexpr int kOwn = 5;  // unknowns of its lamp that a sample depends on: 3 of position, its channel's e and phi
+constexpr int kAim = NearLampUnknowns::kAim, kShape = NearLampUnknowns::kShape,
+              kShared = NearLampUnknowns::kShared;
+constexpr int kOwn =
+    5;  // unknowns of its lamp that a sample depends on: 3 of position, its channel's e and phi
 constexpr int kSample = kOwn + kShared;
 
 constexpr double kAmbientShare = 0.2;  // expected ambient light, share of a lamp's
-constexpr double kAimDeviation = 0.1;  // expected distance of the aim from the middle of the seen surface, metres
-constexpr double kCorrelation = 100;   // samples whose errors agree: so many count as one against what is expected
+constexpr double kAimDeviation =
+    0.1;  // expected distance of the aim from the middle of the seen surface, metres
+constexpr double kCorrelation =
+    100;  // samples whose errors agree: so many count as one against what is expected
 
 using SampleVector = Eigen::Matrix<double, kSample, 1>;
 
@@ -50,11 +54,14 @@ Eigen::Vector3d shading_only(const Lamp& lamp, const Place& here, float lobe_exp
 
 Shading shading_of(const Lamp& lamp, const Place& here, const BroadPixel& pixel, float lobe_exponent) {
   if (!lamp.near) return {shading_only(lamp, here, lobe_exponent)};
-  const Incidence v = incidence_of(lamp, lamp_tangents(lamp.direction), here.offset, here.normal, lobe_exponent);
+  const Incidence v =
+      incidence_of(lamp, lamp_tangents(lamp.direction), here.offset, here.normal, lobe_exponent);
   Shading result{(lamp.strength * v.value + lamp.phi).cast<double>()};
   SampleVector& z = result.by_unknowns;
   z << v.lamp.cast<double>(), static_cast<double>(v.value), 1, v.aim.cast<double>(),
-      (v.point.dot(here.point) * pixel.B + v.normal.transpose() * pixel.normal_by_c).transpose().cast<double>();
+      (v.point.dot(here.point) * pixel.B + v.normal.transpose() * pixel.normal_by_c)
+          .transpose()
+          .cast<double>();
   return result;
 }
 
@@ -73,7 +80,9 @@ std::vector<Eigen::Index> channel_unknowns(const NearLampUnknowns& at, int c) {
 std::vector<std::vector<BroadPixel>> split_into_regions(std::vector<BroadPixel> pixels) {
   constexpr size_t kBands = 4, kColumns = NearLampProblem::kRegions / kBands;
   std::vector<std::vector<BroadPixel>> regions;
-  const auto cut = [](size_t count, size_t k, size_t parts) { return static_cast<std::ptrdiff_t>(count * k / parts); };
+  const auto cut = [](size_t count, size_t k, size_t parts) {
+    return static_cast<std::ptrdiff_t>(count * k / parts);
+  };
   for (size_t band = 0; band < kBands; ++band) {
     const auto begin = pixels.begin() + cut(pixels.size(), band, kBands);
     const auto end = pixels.begin() + cut(pixels.size(), band + 1, kBands);
@@ -99,7 +108,8 @@ struct NearLampProblem::ChannelSums {
     const Eigen::Index shared = Q.rows() - kShared;
     for (size_t i = 0; i < A.size(); ++i) {
       const auto at = [&](Eigen::Index k) {
-        return number[static_cast<size_t>(k < kOwn ? kOwn * static_cast<Eigen::Index>(i) + k : shared + k - kOwn)];
+        return number[static_cast<size_t>(k < kOwn ? kOwn * static_cast<Eigen::Index>(i) + k
+                                                   : shared + k - kOwn)];
       };
       for (Eigen::Index j = 0; j < kSample; ++j) {
         total.b[at(j)] += b[i][j];
@@ -108,7 +118,8 @@ struct NearLampProblem::ChannelSums {
     }
     for (Eigen::Index j = 0; j < Q.rows(); ++j)
       for (Eigen::Index k = 0; k < Q.cols(); ++k)
-        total.A(number[static_cast<size_t>(j)], number[static_cast<size_t>(k)]) -= Q(std::max(j, k), std::min(j, k));
+        total.A(number[static_cast<size_t>(j)], number[static_cast<size_t>(k)]) -=
+            Q(std::max(j, k), std::min(j, k));
   }
 
   std::vector<Eigen::Matrix<double, kSample, kSample>> A;  ///< [image] sum w J J'
@@ -124,8 +135,8 @@ NearLampEquations& NearLampEquations::operator+=(const NearLampEquations& other)
   return *this;
 }
 
-NearLampProblem::NearLampProblem(const Observations& images, const BroadShape* shape, const SurfaceState& state,
-                                 int pixels)
+NearLampProblem::NearLampProblem(const Observations& images, const BroadShape* shape,
+                                 const SurfaceState& state, int pixels)
     : images_(images), state_(state), aim_(state.points.rowwise().mean()) {
   std::vector<BroadPixel> chosen;
   const int stride = std::max(1, images.pixels / pixels);
@@ -169,8 +180,8 @@ double NearLampProblem::pixel_energy(const NearLampUnknowns& at, const BroadPixe
   return sum;
 }
 
-void NearLampProblem::add_pixel(const NearLampUnknowns& at, const BroadPixel& pixel, std::vector<ChannelSums>& sums,
-                                NearLampEquations& total) const {
+void NearLampProblem::add_pixel(const NearLampUnknowns& at, const BroadPixel& pixel,
+                                std::vector<ChannelSums>& sums, NearLampEquations& total) const {
   const Place here = place(at, pixel);
   std::vector<Shading> shadings;
   for (const Lamp& lamp : at.lamps) shadings.push_back(shading_of(lamp, here, pixel, at.scene.lobe_exponent));
@@ -189,7 +200,8 @@ void NearLampProblem::add_pixel(const NearLampUnknowns& at, const BroadPixel& pi
       const double w = weight(i, c, pixel.p);
       if (w == 0) continue;
       const auto image = static_cast<size_t>(i);
-      const double S = shadings[image].S[c], r = static_cast<double>(images_.channel(i, c)[pixel.p]) - rho * S;
+      const double S = shadings[image].S[c],
+                   r = static_cast<double>(images_.channel(i, c)[pixel.p]) - rho * S;
       const auto e = static_cast<double>(at.lamps[image].strength[c]);
       SampleVector J = rho * shadings[image].by_unknowns;
       J.head<3>() *= e;

@@ -20,7 +20,8 @@ struct NearLampEquations {
   double energy = 0;
   double samples = 0;  ///< believed samples less the albedos taken from them
 
-  explicit NearLampEquations(Eigen::Index size) : A(Eigen::MatrixXd::Zero(size, size)), b(Eigen::VectorXd::Zero(size)) {}
+  explicit NearLampEquations(Eigen::Index size)
+      : A(Eigen::MatrixXd::Zero(size, size)), b(Eigen::VectorXd::Zero(size)) {}
   NearLampEquations& operator+=(const NearLampEquations& other);
 };
 

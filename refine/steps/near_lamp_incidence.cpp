@@ -13,8 +13,9 @@ Eigen::Matrix<float, 3, 2> lamp_tangents(const Eigen::Vector3f& direction) {
   return tangents;
 }
 
-Incidence incidence_of(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents, const Eigen::Vector3f& offset,
-                       const Eigen::Vector3f& normal, float m, bool derivatives) {
+Incidence incidence_of(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents,
+                       const Eigen::Vector3f& offset, const Eigen::Vector3f& normal, float m,
+                       bool derivatives) {
   const float kappa = lamp.inverse_distance;
   const Eigen::Vector3f &d = lamp.direction, u = d - kappa * offset;
   const float u2 = u.squaredNorm(), du = d.dot(u), un = u.dot(normal);

@@ -25,7 +25,8 @@ struct Incidence {
 
 /// @param tangents of lamp_tangents: what the derivatives by the direction go along; unused without derivatives
 /// @param offset p - centre, metres  @param derivatives false: leave them zero
-Incidence incidence_of(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents, const Eigen::Vector3f& offset,
-                       const Eigen::Vector3f& normal, float lobe_exponent, bool derivatives = true);
+Incidence incidence_of(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents,
+                       const Eigen::Vector3f& offset, const Eigen::Vector3f& normal, float lobe_exponent,
+                       bool derivatives = true);
 
 }  // namespace rakelight

@@ -31,8 +31,8 @@ double fit_strength(const Observations& images, const SurfaceState& state, int i
   const int stride = std::max(1, images.pixels / 1000);
   std::vector<float> value;
   for (int p = 0; p < images.pixels; p += stride)
-    value.push_back(incidence_of(lamp, kNoTangents, state.points.col(p) - state.scene.center, state.normals.col(p),
-                                 state.scene.lobe_exponent, false)
+    value.push_back(incidence_of(lamp, kNoTangents, state.points.col(p) - state.scene.center,
+                                 state.normals.col(p), state.scene.lobe_exponent, false)
                         .value);
   double misfit = 0;
   for (int c = 0; c < 3; ++c) {
@@ -51,7 +51,8 @@ double fit_strength(const Observations& images, const SurfaceState& state, int i
       b += static_cast<double>(I[p]) * h;
     }
     Eigen::Vector2d s = A.ldlt().solve(b);
-    if (s[0] < 0 || s[1] < 0) s = s[0] < 0 ? Eigen::Vector2d(0, b[1] / A(1, 1)) : Eigen::Vector2d(b[0] / A(0, 0), 0);
+    if (s[0] < 0 || s[1] < 0)
+      s = s[0] < 0 ? Eigen::Vector2d(0, b[1] / A(1, 1)) : Eigen::Vector2d(b[0] / A(0, 0), 0);
     for (size_t k = 0; k < value.size(); ++k) {
       const int p = stride * static_cast<int>(k);
       if (usable[p]) misfit += std::abs(s.dot(row(k, p)) - static_cast<double>(I[p]));
@@ -71,15 +72,16 @@ std::vector<Lamp> search_near_lamps(const Observations& images, const SurfaceSta
       Lamp& lamp = lamps[static_cast<size_t>(i)];
       if (!lamp.near) continue;
       double least = std::numeric_limits<double>::infinity();
-      for_each_position(Eigen::Vector3f(lamp.direction), [&](const Eigen::Vector3f& direction, float inverse_distance) {
-        Lamp candidate = lamp;
-        candidate.direction = direction;
-        candidate.inverse_distance = inverse_distance;
-        const double misfit = fit_strength(images, state, i, candidate);
-        if (misfit >= least) return;
-        least = misfit;
-        lamp = candidate;
-      });
+      for_each_position(Eigen::Vector3f(lamp.direction),
+                        [&](const Eigen::Vector3f& direction, float inverse_distance) {
+                          Lamp candidate = lamp;
+                          candidate.direction = direction;
+                          candidate.inverse_distance = inverse_distance;
+                          const double misfit = fit_strength(images, state, i, candidate);
+                          if (misfit >= least) return;
+                          least = misfit;
+                          lamp = candidate;
+                        });
     }
   });
   return lamps;

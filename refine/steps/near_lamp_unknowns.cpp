@@ -15,7 +15,8 @@ NearLampUnknowns NearLampUnknowns::moved(const Eigen::VectorXd& step, float max_
   for (size_t i = 0; i < lamps.size(); ++i) {
     Lamp& lamp = result.lamps[i];
     if (!lamp.near) continue;
-    const Eigen::Matrix<float, kLamp, 1> s = step.segment<kLamp>(lamp_at(static_cast<Eigen::Index>(i))).cast<float>();
+    const Eigen::Matrix<float, kLamp, 1> s =
+        step.segment<kLamp>(lamp_at(static_cast<Eigen::Index>(i))).cast<float>();
     lamp.strength += s.segment<3>(3);
     lamp.phi += s.tail<3>();
     if (s.head<3>().isZero(0) && aim.isZero(0)) continue;  // a held place does not even drift by rounding

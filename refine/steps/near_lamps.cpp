@@ -67,8 +67,8 @@ Lamp near_from_far(const Lamp& far, float inverse_distance) {
   return lamp;
 }
 
-Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape, const NearLampOptions& options,
-                               SurfaceState& state) {
+Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape,
+                               const NearLampOptions& options, SurfaceState& state) {
   const NearLampProblem problem(images, shape, state, options.pixels);
   Unknowns at{state.lamps, state.scene};
   double damping = 1e-4;
@@ -98,7 +98,8 @@ Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* sha
 }
 
 std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, const BroadShape* shape,
-                                                   const NearLampOptions& options, const SurfaceState& state) {
+                                                   const NearLampOptions& options,
+                                                   const SurfaceState& state) {
   const NearLampProblem problem(images, shape, state, options.pixels);
   const Unknowns at{state.lamps, state.scene};
   const std::vector<NearLampEquations> regions = problem.equations(at);

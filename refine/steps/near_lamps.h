@@ -42,8 +42,8 @@ Lamp near_from_far(const Lamp& far, float inverse_distance);
 /// Improves the state's near lamps and their aim (scene.center). Far lamps stay. Strength is found up to one factor a
 /// channel, the same for all lamps: the albedo takes the rest.
 /// @param shape nullptr: the surface is held; else @return holds the change of zeta that goes with the lamps
-Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape, const NearLampOptions& options,
-                               SurfaceState& state);
+Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape,
+                               const NearLampOptions& options, SurfaceState& state);
 
 /// Position uncertainty of each lamp, the state being fitted: a jackknife over regions of the picture. Errors of the
 /// model (highlights, shadows, the sensor's depth) agree between neighbouring pixels and between images, so residuals

@@ -184,7 +184,8 @@ Eigen::Vector3d center_of(const RefineResult& result) {
     for (int u = 0; u < result.depth.cols; ++u) {
       const auto z = static_cast<double>(result.depth(v, u));
       if (!(z > 0)) continue;
-      sum += z * Eigen::Vector3d((u - result.camera.cx) / result.camera.fx, (v - result.camera.cy) / result.camera.fy, 1);
+      sum += z * Eigen::Vector3d((u - result.camera.cx) / result.camera.fx,
+                                 (v - result.camera.cy) / result.camera.fy, 1);
     }
   return sum / cv::countNonZero(result.depth > 0);
 }

@@ -75,7 +75,8 @@ TEST(NearLampIncidence, ItsDerivativesAgreeWithFiniteDifferences) {
 }
 
 TEST(NearLampIncidence, IsZeroWhereTheLampDoesNotReach) {
-  const Incidence found = incidence_of(near_lamp(0, 0, 0.7f), Eigen::Matrix<float, 3, 2>::Zero(), {0, 0, 0}, {0, 0, 1}, 1);
+  const Incidence found =
+      incidence_of(near_lamp(0, 0, 0.7f), Eigen::Matrix<float, 3, 2>::Zero(), {0, 0, 0}, {0, 0, 1}, 1);
   EXPECT_EQ(found.value, 0);
   EXPECT_EQ(found.lamp.norm(), 0);
 }
@@ -131,7 +132,8 @@ TEST(NearLampEquations, KnowNothingOfAFactorThatAlbedoAndStrengthShare) {
 TEST(NearLamps, ShadeAsThePointSourceFormulaSays) {
   const NearlyLitSphere lit;
   const Lamp& lamp = lit.truth[2];
-  const Eigen::Vector3d X = lamp_position(lamp, lit.state.scene), center = lit.state.scene.center.cast<double>();
+  const Eigen::Vector3d X = lamp_position(lamp, lit.state.scene),
+                        center = lit.state.scene.center.cast<double>();
   const double R = (X - center).norm();
   for (int p = 0; p < lit.images.pixels; p += 37) {
     const Eigen::Vector3d to_lamp = X - lit.state.points.col(p).cast<double>();
@@ -172,8 +174,10 @@ TEST(NearLamps, AreFoundFromTwiceTooFarAway) {
   for (int i = 0; i < 10; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state);
   for (size_t i = 0; i < lit.truth.size(); ++i) {
     const Eigen::Vector3d expected = lamp_position(lit.truth[i], lit.state.scene);
-    EXPECT_LT((lamp_position(lit.state.lamps[i], lit.state.scene) - expected).norm(), 0.01) << "metres, lamp " << i;
-    EXPECT_TRUE(against_first(lit.state.lamps, i).isApprox(against_first(lit.truth, i), 0.02f)) << "lamp " << i;
+    EXPECT_LT((lamp_position(lit.state.lamps[i], lit.state.scene) - expected).norm(), 0.01)
+        << "metres, lamp " << i;
+    EXPECT_TRUE(against_first(lit.state.lamps, i).isApprox(against_first(lit.truth, i), 0.02f))
+        << "lamp " << i;
   }
 }
 
@@ -188,7 +192,8 @@ TEST(NearLamps, OfFarLightMoveAway) {
 
 TEST(NearLamps, AtGivenPositionsKeepThemAndFitTheirStrength) {
   NearlyLitSphere lit;
-  for (size_t i = 0; i < lit.truth.size(); ++i) lit.state.lamps[i].strength *= 0.4f + 0.2f * static_cast<float>(i);
+  for (size_t i = 0; i < lit.truth.size(); ++i)
+    lit.state.lamps[i].strength *= 0.4f + 0.2f * static_cast<float>(i);
   NearLampOptions options;
   options.fixed_positions = true;
   options.steps = 10;
@@ -210,7 +215,8 @@ TEST(NearLamps, FarOnesAreLeftAlone) {
 }
 
 /// Errors of the first lamp's distance (true: 0.7), metres: deviation and mean as found over ten draws of noise, and
-/// deviation as the fit foretells it. The mean is not zero: the fit expects little ambient light.
+/// deviation as the fit foretells it. The mean is not zero: the fit is not linear,
+/// and what it expects of a rig pulls.
 struct Spread {
   double seen = 0, bias = 0, told = 0, told_direction = 0;
 };
