@@ -10,6 +10,7 @@
 
 #include "refine/problem.h"
 #include "refine/refine.h"
+#include "refine/steps/near_lamps.h"
 #include "refine/steps/uncertainty.h"
 #include "refine/surface_state.h"
 
@@ -23,6 +24,7 @@ struct MethodResult {
   std::vector<std::string> warnings;
   std::map<std::string, double> quality; ///< named measures
   Uncertainty uncertainty;               ///< empty where the method gives none
+  std::vector<LampUncertainty> lamp_uncertainty;  ///< [image]; empty where all lamps are far
 };
 
 /// Called after each outer iteration with its number, the share done and log z [pixel] (m); throws Cancelled to stop.

@@ -105,10 +105,11 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   for (int t = 1; t <= options.max_iterations; ++t) {
     IterationReport report;
     report.index = t;
+    const Eigen::VectorXd before = state.zeta;  // the lamps carry the broad shape along, which may undo a depth step
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
     state.points = surface_points(problem.grid, state.zeta);
 
-    lamps.update(images, state, t);  // Eq. (26)
+    lamps.update(problem, prior, state, t);  // Eq. (26)
     if (t == 1) require_three_directions(images, state, result);
     state.albedo = estimate_albedo(images, state);  // Eq. (27)
     normalize_albedo(state);
@@ -123,7 +124,6 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     const double edge_weight = t > kWarmUp ? options.trust.edge_weight : 0;
     weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
     const DepthProblem depth{problem.grid, problem.corners, tensors, weights, prior};
-    const Eigen::VectorXd before = state.zeta;
     const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (32), (34)
 
     report.energy_before_depth = step.energy_before;
@@ -152,6 +152,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   result.message += "; " + lamps.explanation();
+  result.lamp_uncertainty = lamps.uncertainty(problem, prior, state);
   result.uncertainty =
       estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, images, state, *solver,
                            result.termination == Termination::diverged ? 0 : options.uncertainty_samples);

@@ -51,7 +51,6 @@ void for_each_option(Options& options, Visitor&& visit) {
   visit("lamps.model", options.lamps.model);
   visit("lamps.positions", options.lamps.positions);
   visit("lamps.lobe_exponent", options.lamps.lobe_exponent);
-  visit("lamps.settle_after", options.lamps.settle_after);
   visit("trust.attached_shadows", options.trust.attached_shadows);
   visit("trust.model_error", options.trust.model_error);
   visit("trust.cauchy_scale", options.trust.cauchy_scale);

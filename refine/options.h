@@ -47,8 +47,7 @@ struct LampOptions {
   LampModel model = LampModel::automatic;
   LampPositions positions = LampPositions::estimated;
   double lobe_exponent =
-      1;                  ///< emission cos^m about the axis towards the object: 0 isotropic, 1 Lambertian LED
-  int settle_after = 30;  ///< outer iterations after which near distances are no longer over-relaxed
+      1;  ///< emission cos^m about the axis towards the object: 0 isotropic, 1 Lambertian LED
 };
 
 /// Which samples are believed.
@@ -107,7 +106,7 @@ struct RefineOptions {
   int max_iterations = 40;  ///< outer iterations
   int min_iterations = 14;  ///< robust: no stop before the lamp model is chosen and has taken effect
   double tolerance =
-      0.02;         ///< robust: stop when depth moves less than this share of a depth pixel's noise (rms);
+      0.01;         ///< robust: stop when depth moves less than this share of a depth pixel's noise (rms);
                     ///< paper: epsilon, the relative change of the energy
   int threads = 0;  ///< 0: all; the result does not depend on it
   int uncertainty_samples = 16;  ///< random surfaces drawn for the error bars (multi-light); 0: none

@@ -72,8 +72,8 @@ Eigen::Matrix<double, 3, 5> second_order_rows(const Lamp& lamp) {
   return rows;
 }
 
-std::vector<LightEstimate> light_estimates(const Observations& images, const SurfaceState& state) {
-  const std::vector<LampUncertainty> uncertainty = near_lamp_uncertainty(images, state, {});
+std::vector<LightEstimate> light_estimates(const Observations& images, const MethodResult& method) {
+  const SurfaceState& state = method.state;
   std::vector<LightEstimate> estimates;
   for (size_t i = 0; i < state.lamps.size(); ++i) {
     const Lamp& lamp = state.lamps[i];
@@ -86,8 +86,8 @@ std::vector<LightEstimate> light_estimates(const Observations& images, const Sur
     if (lamp.second_order) estimate.second_order_rgb = second_order_rows(lamp);
     if (lamp.near) {
       estimate.position_m = lamp_position(lamp, state.scene);
-      estimate.distance_deviation_m = uncertainty[i].distance_deviation;
-      estimate.direction_deviation_rad = uncertainty[i].direction_deviation;
+      estimate.distance_deviation_m = method.lamp_uncertainty[i].distance_deviation;
+      estimate.direction_deviation_rad = method.lamp_uncertainty[i].direction_deviation;
     }
     estimates.push_back(estimate);
   }
@@ -115,7 +115,7 @@ RefineResult make_result(const RefineProblem& problem, MethodResult method, cons
   result.albedo = scatter3(grid, method.state.albedo);
   result.inpainted = inpainted_on_grid(problem);
   result.uncertainty = uncertainty_image(problem, method);
-  result.lights = light_estimates(problem.images, method.state);
+  result.lights = light_estimates(problem.images, method);
   result.iterations = std::move(method.iterations);
   result.termination = method.termination;
   result.message = std::move(method.message);

@@ -10,8 +10,8 @@
 
 #include <string>
 
-#include "refine/observations.h"
 #include "refine/options.h"
+#include "refine/problem.h"
 #include "refine/steps/near_lamps.h"
 #include "refine/surface_state.h"
 
@@ -23,10 +23,14 @@ class LampEstimator {
 
   /// Estimates the state's lamps for outer iteration `iteration` (from 1). Call it in order.
   /// @throws InputError when positions are to be taken from the stack and a lamp has none
-  void update(const Observations& images, SurfaceState& state, int iteration);
+  void update(const RefineProblem& problem, const DepthPrior& prior, SurfaceState& state, int iteration);
 
   /// Whether the last update moved the lamps too little to matter.
   bool settled() const { return settled_; }
+
+  /// Of each lamp's position, after the last update; empty where all lamps are far.
+  std::vector<LampUncertainty> uncertainty(const RefineProblem& problem, const DepthPrior& prior,
+                                           const SurfaceState& state) const;
 
   /// One sentence: the model used, and why.
   std::string explanation() const { return explanation_; }
@@ -35,10 +39,12 @@ class LampEstimator {
   double far_over_near() const { return far_over_near_; }
 
  private:
+  NearLampOptions fit_options() const;
   void start_near(const Observations& images, SurfaceState& state);
   void choose(const Observations& images, SurfaceState& state);
 
   LampOptions options_;
+  SurfaceState far_state_;  ///< what the far lamps had reached when near ones took over
   bool near_ = false;
   bool settled_ = true;
   double far_over_near_ = 0;

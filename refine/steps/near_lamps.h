@@ -1,19 +1,30 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Position and strength of lamps that stand near the object, from the images and the current shape and albedo
-// (refine/lamp.h gives the model; metric depth fixes the scale). Nine unknowns a lamp: direction (2), inverse distance,
-// strength (3) and ambient share (3); Levenberg-Marquardt on a subset of the pixels.
+// Position and strength of lamps that stand near the object, from the images and the depth (refine/lamp.h gives the
+// model; metric depth fixes the scale).
+//
+// A lamp's distance trades against the albedo, the object's depth and the other lamps: each fitted alone, the others
+// held, creeps for hundreds of iterations. So all are fitted at once, by Levenberg-Marquardt on
+//
+//     sum_pc sum_i w (I_ic - rho_c S_ic)^2 + lambda_z sum (zeta + B c - z0)^2
+//
+//   lamps   9 a lamp: direction (2), inverse distance, strength (3), ambient share (3)
+//   aim     3: the point that the lamps' axes meet in
+//   shape   7: B c, the broad changes of log depth (refine/steps/broad_shape.h)
+//   albedo  3 a pixel, eliminated exactly: only what no albedo explains counts (variable projection; Kaufman's
+//           Jacobian), a rank-one term a pixel and channel.
 #pragma once
 
 #include "refine/observations.h"
+#include "refine/steps/broad_shape.h"
 #include "refine/surface_state.h"
 
 namespace rakelight {
 
 struct NearLampOptions {
-  int steps = 3;       ///< Levenberg-Marquardt steps a call
-  int pixels = 12000;  ///< about so many pixels are used, evenly spread: nine unknowns need no more
+  int steps = 3;                    ///< Levenberg-Marquardt steps a call
+  int pixels = 4000;                ///< about so many pixels are used, evenly spread
   float max_inverse_distance = 10;  ///< 1/m: no lamp is taken to stand nearer than this to the centre
   bool fixed_positions = false;     ///< fit strength and ambient share only
 };
@@ -28,25 +39,18 @@ struct LampUncertainty {
 /// A near lamp started from a far one: its direction, its strength, and the given inverse distance.
 Lamp near_from_far(const Lamp& far, float inverse_distance);
 
-/// Improves the near lamps of the state in place of the far ones. @return one lamp an image.
-std::vector<Lamp> estimate_near_lamps(const Observations& images, const SurfaceState& state,
-                                      const NearLampOptions& options);
+/// Improves the state's near lamps and their aim (scene.center). Far lamps stay. Strength is found up to one factor a
+/// channel, the same for all lamps: the albedo takes the rest.
+/// @param shape nullptr: the surface is held; else @return holds the change of zeta that goes with the lamps
+Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape,
+                               const NearLampOptions& options, SurfaceState& state);
 
-/// max(0, v.n) of the near model (refine/lamp.h) and its derivative by the lamp's direction along two tangents and by
-/// kappa. A channel's shading is e_c value + phi_c.
-struct Incidence {
-  float value = 0;
-  Eigen::Vector3f derivative = Eigen::Vector3f::Zero();
-};
-
-/// @param offset p - centre, metres  @param derivatives false: leave them zero
-Incidence incidence_of(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents,
-                       const Eigen::Vector3f& offset, const Eigen::Vector3f& normal, float lobe_exponent,
-                       bool derivatives = true);
-
-/// Position uncertainty of each lamp from the curvature of its fit and the residuals. @param scale residual deviation
-std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, const SurfaceState& state,
-                                                   const NearLampOptions& options);
+/// Position uncertainty of each lamp, the state being fitted: a jackknife over regions of the picture. Errors of the
+/// model (highlights, shadows, the sensor's depth) agree between neighbouring pixels and between images, so residuals
+/// taken as independent promise far too much; how the fit changes when a region is left out shows what they do to it. One
+/// Gauss-Newton step stands for each refit. Errors that the whole picture shares do not show.
+std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, const BroadShape* shape,
+                                                   const NearLampOptions& options, const SurfaceState& state);
 
 /// Lamp position in camera coordinates, metres; at most 1 km away.
 Eigen::Vector3d lamp_position(const Lamp& lamp, const LampScene& scene);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 #include "refine/evaluate.h"
 #include "refine/refine.h"
@@ -174,6 +175,42 @@ TEST(RefineSimulated, NearLampsAreToldFromFarOnes) {
   EXPECT_THAT(near.result.message, testing::HasSubstr("near lamps"));
   EXPECT_TRUE(near.result.lights.front().position_m.has_value());
   expect_at_most(near, 1.0, 0.8);
+}
+
+/// Mean of the refined surface's points, metres.
+Eigen::Vector3d center_of(const RefineResult& result) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int v = 0; v < result.depth.rows; ++v)
+    for (int u = 0; u < result.depth.cols; ++u) {
+      const auto z = static_cast<double>(result.depth(v, u));
+      if (!(z > 0)) continue;
+      sum += z * Eigen::Vector3d((u - result.camera.cx) / result.camera.fx,
+                                 (v - result.camera.cy) / result.camera.fy, 1);
+    }
+  return sum / cv::countNonZero(result.depth > 0);
+}
+
+TEST(RefineSimulated, PositionsOfNearLampsAreFoundAsWellAsTheyAreSaidToBe) {
+  SimulateOptions options = rig(Realism::real, SceneKind::vase, 1);
+  options.lamps.near = true;
+  options.lamps.count = 12;
+  options.lamps.write_positions = true;
+  const Simulated scan = simulate_stack(options);
+  const RefineResult result = refine_depth(scan.stack, {});
+  double error = 0, told = 0;  // means over the lamps, shares of their distance
+  for (size_t i = 0; i < result.lights.size(); ++i) {
+    const LightEstimate& light = result.lights[i];
+    ASSERT_TRUE(light.position_m.has_value()) << light.id;
+    const Eigen::Vector3d truth = *scan.stack.lights[i].position_m;
+    const double distance = (truth - center_of(result)).norm();
+    error += (*light.position_m - truth).norm() / distance / static_cast<double>(result.lights.size());
+    told += std::hypot(light.distance_deviation_m / distance, light.direction_deviation_rad) /
+            static_cast<double>(result.lights.size());
+  }
+  std::cout << "lamps: error " << 100 * error << " %, told " << 100 * told << " %\n";
+  EXPECT_LT(error, 0.12);
+  EXPECT_GT(told, 0.3 * error);
+  EXPECT_LT(told, 3 * error);
 }
 
 /// A vase under near lamps whose positions the stack tells.

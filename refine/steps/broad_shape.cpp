@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/steps/broad_shape.h"
+
+#include <cmath>
+
+namespace rakelight {
+
+BroadChanges broad_changes(const SurfaceState& state, int p) {
+  const float x = state.points(0, p) / state.points(2, p), y = state.points(1, p) / state.points(2, p);
+  // relative to the centre's depth, which keeps the unknowns well scaled
+  const auto zeta = static_cast<float>(state.zeta[p] - std::log(static_cast<double>(state.scene.center.z())));
+  BroadChanges B;
+  B << 1, x, y, x * x, x * y, y * y, zeta;
+  return B;
+}
+
+BroadPixel broad_pixel(const BroadShape* shape, const SurfaceState& state, int p) {
+  BroadPixel pixel;
+  pixel.p = p;
+  pixel.point = state.points.col(p);
+  pixel.normal = state.normals.col(p);
+  if (!shape) return pixel;
+  pixel.B = broad_changes(state, p);
+  // raw normal (fx zeta_u, fy zeta_v, -1 - u~ zeta_u - v~ zeta_v) = (zeta_x, zeta_y, -1 - x zeta_x - y zeta_y) by x, y
+  const float x = pixel.B[1], y = pixel.B[2];
+  const float d = -1.0f / pixel.normal.dot(Eigen::Vector3f(x, y, 1));
+  const Eigen::Vector3f raw = d * pixel.normal;
+  Eigen::Matrix<float, 2, kBroadChanges> gradient;
+  gradient << 0, 1, 0, 2 * x, y, 0, raw.x(),  //
+      0, 0, 1, 0, x, 2 * y, raw.y();
+  Eigen::Matrix<float, 3, 2> J;
+  J << 1, 0, 0, 1, -x, -y;
+  J /= d;
+  pixel.normal_by_c = (J - pixel.normal * (pixel.normal.transpose() * J)) * gradient;
+  const auto cell = static_cast<size_t>(shape->prior.cells.cell_of[static_cast<size_t>(p)]);
+  const auto size = static_cast<double>(shape->prior.cells.pixels_of[cell].size());
+  pixel.prior_weight = shape->prior.cell_weight[static_cast<Eigen::Index>(cell)] / size;
+  pixel.prior_miss = state.zeta[p] - shape->prior.cell_target[static_cast<Eigen::Index>(cell)];
+  return pixel;
+}
+
+}  // namespace rakelight
