@@ -108,7 +108,7 @@ Finding wanted_sensor(const Hardware& hardware, const SensorSetup& setup) {
             "plug a sensor in; see what is said about it above"};
   }
   const bool listed = std::any_of(devices.begin(), devices.end(),
-                                  [&](const OpenniDevice& device) { return device.uri == setup.uri; });
+                                  [&](const FoundDevice& device) { return device.uri == setup.uri; });
   if (listed || std::filesystem::is_regular_file(setup.uri))
     return {Level::good, "rig's sensor", setup.uri, ""};
   return {Level::problem, "rig's sensor", "OpenNI2 sees no " + setup.uri, cure};

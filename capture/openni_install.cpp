@@ -26,7 +26,7 @@ std::string version_text(const openni::Version& version) {
          std::to_string(version.maintenance) + "." + std::to_string(version.build);
 }
 
-OpenniDevice device_of(const openni::DeviceInfo& info) {
+FoundDevice device_of(const openni::DeviceInfo& info) {
   char usb_id[16];
   std::snprintf(usb_id, sizeof usb_id, "%04x:%04x", info.getUsbVendorId(), info.getUsbProductId());
   return {info.getUri(), info.getVendor(), info.getName(), usb_id};

@@ -10,7 +10,7 @@
 
 namespace rakelight {
 
-struct OpenniDevice {
+struct FoundDevice {
   std::string uri, vendor, name;
   std::string usb_id;  ///< "1d27:0601"
 };
@@ -25,7 +25,7 @@ struct OpenniDrivers {
 struct OpenniInstall {
   std::string version;  ///< "2.2.0.33"
   OpenniDrivers drivers;
-  std::vector<OpenniDevice> devices;
+  std::vector<FoundDevice> devices;
   std::string trouble;  ///< why devices could not be listed; empty: they could
 };
 

@@ -53,7 +53,7 @@ void print_openni(const OpenniInstall& openni) {
   std::string drivers;
   for (const std::string& name : openni.drivers.loaded) drivers += " " + name;
   print_row("OpenNI2", openni.version + ", drivers in " + openni.drivers.folder.string() + ":" + drivers);
-  for (const OpenniDevice& device : openni.devices) {
+  for (const FoundDevice& device : openni.devices) {
     print_row("", device.uri + ": " + device.vendor + " " + device.name);
   }
 }
@@ -96,7 +96,7 @@ json sensors_json(const Hardware& hardware) {
 
 json openni_json(const OpenniInstall& openni) {
   json devices = json::array();
-  for (const OpenniDevice& device : openni.devices) {
+  for (const FoundDevice& device : openni.devices) {
     devices.push_back(
         {{"uri", device.uri}, {"vendor", device.vendor}, {"name", device.name}, {"usb_id", device.usb_id}});
   }
