@@ -12,10 +12,11 @@
 namespace rakelight {
 namespace {
 
-constexpr float kLitShare = 0.06F;   // of the bright parts' light: less is background or shadow
-constexpr double kBrightRank = 0.9;  // which part counts as bright
-constexpr float kJump = 0.03F;       // of the depth between neighbours: another thing
-constexpr double kMiddle = 0.5;      // the object is what fills most of this share of the picture, each way
+constexpr float kLitShare = 0.06F;    // of the bright parts' light: less is background or shadow
+constexpr double kBrightRank = 0.9;   // which part counts as bright
+constexpr float kJump = 0.03F;        // of the depth between neighbours: another thing
+constexpr double kHoleShare = 0.002;  // of the object: a hole up to this is one of the readings
+constexpr double kMiddle = 0.5;       // the object is what fills most of this share of the picture, each way
 
 /// Numbers the pieces of cells that are `lit` and joined without a depth jump, from 1 on.
 cv::Mat1i label_pieces(const cv::Mat1f& depth, const cv::Mat1b& lit, int& count) {
@@ -103,6 +104,20 @@ cv::Mat1f lamp_light(const LightStack& stack) {
   return light;
 }
 
+/// Fills what the depth sensor did not read within the object; a larger hole may be one of the object, as in a handle.
+void fill_small_holes(cv::Mat1b& mask) {
+  const double largest = kHoleShare * cv::countNonZero(mask);
+  cv::Mat1i labels, stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(mask == 0, labels, stats, centroids, 4);
+  for (int label = 1; label < count; ++label) {
+    const cv::Rect box(stats(label, cv::CC_STAT_LEFT), stats(label, cv::CC_STAT_TOP),
+                       stats(label, cv::CC_STAT_WIDTH), stats(label, cv::CC_STAT_HEIGHT));
+    const bool enclosed = box.x > 0 && box.y > 0 && box.br().x < mask.cols && box.br().y < mask.rows;
+    if (enclosed && stats(label, cv::CC_STAT_AREA) <= largest) mask.setTo(255, labels == label);
+  }
+}
+
 cv::Mat1f depth_of_points(const CoarseScene& scene) {
   cv::Mat1f depth;
   cv::extractChannel(scene.points, depth, 2);
@@ -137,6 +152,7 @@ cv::Mat1b auto_mask(const LightStack& stack) {
   const cv::Mat disk = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
   cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, disk);  // holes of the depth and of deep shadow
   cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disk);   // stray pixels at edges
+  fill_small_holes(mask);
   return mask;
 }
 

@@ -24,6 +24,10 @@ ProfiledFrame profiled(const TimedFrame& frame, const ColorResponse& response) {
   return {frame.time_us, row_profile(frame.frame.image, response)};
 }
 
+double spread(const std::vector<double>& sorted) {
+  return sorted.empty() ? 0 : sorted.back() - sorted.front();
+}
+
 /// Frames from the write on until two show the same new state; nothing if the picture does not change in time.
 std::optional<std::vector<ProfiledFrame>> watch_change(FrameFeed& feed, const RowProfile& before,
                                                        const ColorResponse& response) {
@@ -155,15 +159,21 @@ std::optional<LagEstimate> measure_lag(FrameFeed& feed, Lights& lights, const st
 LatencyCalibration summarise(const LagEstimate& estimate, const ClockFit& fit) {
   std::vector<double> lags = estimate.lags_us(fit, true);
   const std::vector<double> off = estimate.lags_us(fit, false);
+  const double jitter_us = std::max(spread(lags), spread(off));  // a slow write is no jitter
   lags.insert(lags.end(), off.begin(), off.end());
   std::sort(lags.begin(), lags.end());
-  return {lags[lags.size() / 2], lags.back() - lags.front(), static_cast<int>(lags.size())};
+  return {lags[lags.size() / 2], jitter_us, static_cast<int>(lags.size())};
 }
 
 LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostClock& clock,
-                                     const FrameTiming& timing, const std::string& lamp,
+                                     const SensorSetup& sensor, const std::string& lamp,
                                      const LatencyOptions& options, FrameFeed::KeepGoing keep_going) {
+  const SourceDescription about = source.describe();
+  if (!about.live) throw UsageError("a recording does not follow the lamps; give a rig file with a sensor");
   source.start();
+  const ExposureLock lock = source.lock_exposure(sensor.exposure_us, sensor.gain);
+  const FrameTiming timing{lock.exposure_us.value_or(sensor.exposure_us), sensor.readout_us,
+                           about.frame_period_us};
   FrameFeed feed(source, clock, timing, std::move(keep_going));
   const std::optional<LagEstimate> estimate = measure_lag(feed, lights, lamp, options);
   source.stop();

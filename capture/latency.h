@@ -11,6 +11,7 @@
 
 #include "capture/edge_time.h"
 #include "capture/frame_feed.h"
+#include "capture/rig.h"
 #include "lights/lights.h"
 #include "stack/stack.h"
 
@@ -48,11 +49,10 @@ class LagEstimate {
   std::vector<Edge> edges_;
 };
 
-/// What `rakelight calibrate latency` writes into the rig file.
+/// What `rakelight calibrate latency` reports; the jitter goes into the rig file, the lag every scan measures itself.
 struct LatencyCalibration {
-  double lag_us =
-      0;  ///< median, write to picture on the line of earliest arrivals (lamp_latency_us + clock_offset_us)
-  double jitter_us = 0;  ///< from the least to the greatest lag
+  double lag_us = 0;     ///< median, write to picture on the line of earliest arrivals
+  double jitter_us = 0;  ///< from the least to the greatest lag of edges of one kind
   int edges = 0;         ///< how many were seen
 };
 
@@ -69,10 +69,10 @@ std::optional<LagEstimate> measure_lag(FrameFeed& feed, Lights& lights, const st
 /// The figures of an estimate with at least one edge.
 LatencyCalibration summarise(const LagEstimate& estimate, const ClockFit& fit);
 
-/// Starts `source`, switches `lamp` `toggles` times and stops again. @param timing of the exposure that is locked
-/// @throws as measure_lag; DeviceError if the lamp does not change the picture.
+/// Starts `source`, locks the rig's exposure, switches `lamp` `toggles` times and stops again.
+/// @throws as measure_lag; DeviceError if the lamp does not change the picture; UsageError if `source` is a recording
 LatencyCalibration calibrate_latency(FrameSource& source, Lights& lights, HostClock& clock,
-                                     const FrameTiming& timing, const std::string& lamp,
+                                     const SensorSetup& sensor, const std::string& lamp,
                                      const LatencyOptions& options, FrameFeed::KeepGoing keep_going = {});
 
 }  // namespace rakelight

@@ -58,9 +58,7 @@ struct SensorSetup {
   double exposure_us = 8000;
   double gain = 100;
   double readout_us = 30000;         ///< first to last row of the rolling shutter
-  double lamp_latency_us = 2000;     ///< measured by `rakelight calibrate latency`
-  double lamp_jitter_us = 1000;
-  double clock_offset_us = 0;        ///< host time at arrival minus device timestamp's exposure end, beyond the fit
+  double lamp_jitter_us = 1000;      ///< of the time from write to light; `rakelight calibrate latency` measures it
 };
 
 struct RigCalibration {

@@ -95,9 +95,7 @@ void set_positions(const Rig& rig, const Rig& old, Edit& edit) {
 
 void set_timing(const SensorSetup& sensor, const SensorSetup& old, Edit& edit) {
   edit.set("sensor", "readout_us", sensor.readout_us, old.readout_us);
-  edit.set("sensor", "lamp_latency_us", sensor.lamp_latency_us, old.lamp_latency_us);
   edit.set("sensor", "lamp_jitter_us", sensor.lamp_jitter_us, old.lamp_jitter_us);
-  edit.set("sensor", "clock_offset_us", sensor.clock_offset_us, old.clock_offset_us);
 }
 
 void set_optics(const RigCalibration& now, const RigCalibration& old, Edit& edit) {
@@ -121,8 +119,7 @@ std::string fingerprint(const Rig& rig) {
   for (const RigLamp& lamp : rig.lamps)
     text += lamp.id + (lamp.position_m ? position_text(*lamp.position_m) : "");
   const SensorSetup& s = rig.sensor;
-  return text +
-         list_text(std::vector<double>{s.readout_us, s.lamp_latency_us, s.lamp_jitter_us, s.clock_offset_us});
+  return text + list_text(std::vector<double>{s.readout_us, s.lamp_jitter_us});
 }
 
 bool same_lamps(const Rig& a, const Rig& b) {

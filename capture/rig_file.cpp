@@ -37,9 +37,7 @@ void read_sensor(TomlReader& file, SensorSetup& setup) {
   sensor->read("exposure_us", setup.exposure_us, 1, kSecond_us);
   sensor->read("gain", setup.gain, 0, 1e6);
   sensor->read("readout_us", setup.readout_us, 0, kSecond_us);
-  sensor->read("lamp_latency_us", setup.lamp_latency_us, 0, kSecond_us);
   sensor->read("lamp_jitter_us", setup.lamp_jitter_us, 0, kSecond_us);
-  sensor->read("clock_offset_us", setup.clock_offset_us, -10 * kSecond_us, 10 * kSecond_us);
   sensor->refuse_unknown();
   if (setup.exposure_us > kSecond_us / setup.color.fps) {
     sensor->refuse("exposure_us", "is longer than a frame at " + std::to_string(setup.color.fps) + " fps",

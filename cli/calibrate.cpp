@@ -11,6 +11,7 @@ namespace rakelight::cli {
 namespace {
 
 constexpr const char* kFooter = R"(In this order (docs/calibration.md):
+  rakelight calibrate latency --rig my-rig.toml                   lamps to picture, and how much it varies
   rakelight calibrate board -o board.png                          print it, paste it on something flat
   rakelight calibrate camera views --rig my-rig.toml              both cameras and the motion between them
   rakelight calibrate response at-4ms at-8ms at-16ms --rig my-rig.toml
@@ -54,6 +55,7 @@ void add_calibrate_command(CLI::App& program, int& exit_code) {
   add_calibrate_camera(*calibrate, exit_code);
   add_calibrate_response(*calibrate, exit_code);
   add_calibrate_crosstalk(*calibrate, exit_code);
+  add_calibrate_latency(*calibrate, exit_code);
   add_calibrate_lamps(*calibrate, exit_code);
 }
 

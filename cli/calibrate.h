@@ -34,6 +34,7 @@ void add_calibrate_board(CLI::App& calibrate, int& exit_code);
 void add_calibrate_camera(CLI::App& calibrate, int& exit_code);
 void add_calibrate_response(CLI::App& calibrate, int& exit_code);
 void add_calibrate_crosstalk(CLI::App& calibrate, int& exit_code);
+void add_calibrate_latency(CLI::App& calibrate, int& exit_code);
 void add_calibrate_lamps(CLI::App& calibrate, int& exit_code);
 
 }  // namespace rakelight::cli

@@ -22,6 +22,12 @@
 #include "stack/errors.h"
 #include "stack/stack_io.h"
 
+#ifdef RAKELIGHT_HAS_SIMULATE
+#include "capture/virtual_sensor.h"
+#include "simulate/virtual_sensor/virtual_scene.h"
+#include "stack/truth_io.h"
+#endif
+
 namespace rakelight::cli {
 namespace {
 
@@ -95,6 +101,18 @@ void put_mask(LightStack& stack, const std::string& mask) {
     spdlog::warn("scan: no object stands out in depth and light, so the stack has no mask");
 }
 
+/// What the virtual sensor looked at, for `evaluate`, beside the images.
+void write_virtual_truth(const Rig& rig, const fs::path& stack) {
+#ifdef RAKELIGHT_HAS_SIMULATE
+  if (!rig.virtual_rig) return;
+  const VirtualSensorSetup setup = parse_virtual_setup(virtual_sensor_text(rig));
+  fs::create_directories(stack / "truth");
+  write_truth(VirtualScene(setup).truth(setup.color_size), stack / "truth");
+#else
+  (void)rig, (void)stack;
+#endif
+}
+
 RefineResult refine_with_bar(const LightStack& stack) {
   ProgressBar bar;
   return refine_depth(stack, RefineOptions(), [&bar](const Progress& progress) {
@@ -166,6 +184,7 @@ int run(const Arguments& arguments) {
   ScanResult scan = scan_with_bar(rig, arguments, folder);
   put_mask(scan.stack, arguments.mask);
   folder.finish(scan.stack);
+  write_virtual_truth(rig, arguments.output);
   for (const std::string& warning : scan.warnings) spdlog::warn("scan: {}", warning);
   if (!arguments.json) print_report(scan, arguments);
   json report = report_json(scan, arguments);

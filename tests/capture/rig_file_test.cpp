@@ -85,7 +85,7 @@ TEST(RigFile, TheVirtualExampleIsTheVirtualRig) {
   EXPECT_EQ(file.rgb_shot, rig.rgb_shot);
   EXPECT_EQ(file.sensor.uri, rig.sensor.uri);
   EXPECT_EQ(file.sensor.exposure_us, rig.sensor.exposure_us);
-  EXPECT_EQ(file.sensor.lamp_latency_us, rig.sensor.lamp_latency_us);
+  EXPECT_EQ(file.sensor.lamp_jitter_us, rig.sensor.lamp_jitter_us);
   EXPECT_EQ(file.sensor.readout_us, rig.sensor.readout_us);
   ASSERT_EQ(file.lamps.size(), rig.lamps.size());
   for (std::size_t k = 0; k < rig.lamps.size(); ++k) {
@@ -93,6 +93,8 @@ TEST(RigFile, TheVirtualExampleIsTheVirtualRig) {
     EXPECT_EQ(file.lamps[k].color, rig.lamps[k].color);
     EXPECT_EQ(file.lamps[k].line.chip, rig.lamps[k].line.chip);
     EXPECT_EQ(file.lamps[k].line.offset, rig.lamps[k].line.offset);
+    ASSERT_TRUE(file.lamps[k].position_m && rig.lamps[k].position_m);
+    EXPECT_LT((*file.lamps[k].position_m - *rig.lamps[k].position_m).norm(), 1e-9) << "metres, lamp " << k;
   }
   ASSERT_TRUE(file.virtual_rig);
   EXPECT_EQ(file.virtual_rig->scene, rig.virtual_rig->scene);
@@ -180,7 +182,7 @@ TEST(RigFile, NamesAFileThatIsNotThere) {
 
 /// A rig with everything calibration measures.
 Rig calibrated(Rig rig) {
-  rig.sensor.lamp_latency_us = 2345.6;
+  rig.sensor.lamp_jitter_us = 2345.6;
   rig.lamps[0].position_m = Eigen::Vector3d(0.1, -0.25, 1.0 / 3);
   rig.calibration.color_camera =
       Camera{1280, 960, 1049.5, 1050.25, 640.125, 479.5, {0.1, -0.2, 0.001, 0.002, 0.05}};
@@ -194,7 +196,7 @@ Rig calibrated(Rig rig) {
 }
 
 void expect_calibrated(const Rig& rig) {
-  EXPECT_EQ(rig.sensor.lamp_latency_us, 2345.6);
+  EXPECT_EQ(rig.sensor.lamp_jitter_us, 2345.6);
   ASSERT_TRUE(rig.lamps[0].position_m);
   EXPECT_NEAR(rig.lamps[0].position_m->z(), 1.0 / 3, 1e-9);
   EXPECT_FALSE(rig.lamps[1].position_m);
@@ -225,7 +227,7 @@ INSTANTIATE_TEST_SUITE_P(
     Layouts, StoreCalibration,
     testing::Values(
         small_rig(), small_rig("[calibration]\n# the program's own\n"),
-        small_rig("[sensor]\nlamp_latency_us = 1 # guessed\n[calibration.color_camera]\nwidth = 1\n"
+        small_rig("[sensor]\nlamp_jitter_us = 1 # guessed\n[calibration.color_camera]\nwidth = 1\n"
                   "height = 1\nfx = 1\nfy = 1\ncx = 1\ncy = 1\n"),
         small_rig("[calibration]\ncolor_response = \"srgb\"\ncolor_camera = { width = 4, height = 4, "
                   "fx = 1, fy = 1, cx = 1, cy = 1 }\n")));
@@ -236,12 +238,12 @@ TEST(StoreCalibration, ChangesOnlyTheLinesItMeasured) {
   const std::string before = text_of(kExamples / "raspberry-pi.toml");
   set_text(file, before);
   Rig rig = read_rig(file);
-  rig.sensor.lamp_latency_us = 731;
+  rig.sensor.lamp_jitter_us = 731;
   store_calibration(rig, file);
   std::string expected = before;
-  const std::string old = "lamp_latency_us = 500 ";
+  const std::string old = "lamp_jitter_us = 1000 ";
   ASSERT_NE(expected.find(old), std::string::npos);
-  expected.replace(expected.find(old), old.size(), "lamp_latency_us = 731.0 ");
+  expected.replace(expected.find(old), old.size(), "lamp_jitter_us = 731.0 ");
   EXPECT_EQ(text_of(file), expected);
 }
 

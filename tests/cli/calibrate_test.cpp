@@ -93,6 +93,32 @@ TEST(Calibrate, RefusesToStoreLampsOfAnotherRig) {
   EXPECT_EQ(text_of(rig), before);
 }
 
+TEST(Calibrate, MeasuresTheJitterOfTheVirtualLampsAndStoresIt) {
+  const TemporaryFolder home;
+  const std::filesystem::path rig = copied_rig(home);
+  replace_in_file(rig, "lamp_jitter_us = 0 ", "lamp_jitter_us = 4000 ");
+  const Ran ran = run({"calibrate", "latency", "--rig", rig, "--toggles", "6", "--json"});
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto found = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(found["lamp"], "white-00");
+  EXPECT_GT(found["jitter_us"], 300);
+  EXPECT_LT(found["jitter_us"], 12000) << "4 ms of the lamp, and what the picture leaves in doubt";
+  EXPECT_EQ(read_rig(rig).sensor.lamp_jitter_us, found["lamp_jitter_us"]);
+  EXPECT_THAT(text_of(rig), HasSubstr("# of the time from write to light"));
+}
+
+TEST(Calibrate, SaysThatALampDoesNotChangeThePicture) {
+  const TemporaryFolder home;
+  const std::filesystem::path rig = copied_rig(home);
+  replace_in_file(rig, "stuck_off = []", "stuck_off = [\"white-03\"]");
+  const std::string before = text_of(rig);
+  const Ran dead = run({"calibrate", "latency", "--rig", rig, "--lamp", "white-03"});
+  EXPECT_EQ(dead.exit_code, 4);
+  EXPECT_THAT(dead.err, HasSubstr("lamp 'white-03', but switching it does not change the picture"));
+  EXPECT_EQ(text_of(rig), before);
+  EXPECT_EQ(run({"calibrate", "latency", "--lamp", "lantern"}).exit_code, 2);
+}
+
 TEST(Calibrate, NeedsToBeToldWhat) {
   EXPECT_EQ(run({"calibrate"}).exit_code, 2);
   EXPECT_EQ(run({"calibrate", "camera", "/nowhere"}).exit_code, 3);
