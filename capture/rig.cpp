@@ -8,13 +8,13 @@
 namespace rakelight {
 namespace {
 
-/// Where a lamp of the virtual rig stands, to the millimetre: 1.5 m from the object's centre, which is 1 m before the camera.
+/// Where a lamp of the virtual rig stands, to the millimetre: 8 m from the object's centre, which is 1 m before the camera.
 /// @param angle_deg from the optical axis  @param turn share of a turn about it
 Eigen::Vector3d lamp_place(double angle_deg, double turn) {
   const double angle = angle_deg * M_PI / 180, azimuth = 2 * M_PI * turn;
   const Eigen::Vector3d direction(std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth),
                                   -std::cos(angle));
-  const Eigen::Vector3d place = Eigen::Vector3d(0, 0, 1) + 1.5 * direction;
+  const Eigen::Vector3d place = Eigen::Vector3d(0, 0, 1) + 8.0 * direction;
   return (1000 * place).array().round() / 1000;
 }
 
