@@ -20,7 +20,10 @@ constexpr int kFirstNear =
 constexpr int kChoice = 8;  // outer iteration: the near fit has settled enough to be compared
 constexpr float kStartInverseDistance = 1.0f;  // 1/m; 0.5, 1 and 2 m were seen to reach the same point
 constexpr double kClearlyBetter = 1.02;        // far residual / near residual above which near lamps stay
-constexpr int kSearchRounds = 4;               // of lamps and albedo in turn
+/// Light that turns less than this between the object's centre and its rim (radians) is parallel for every purpose, while
+/// the near model's further unknowns would fit what the model lacks.
+constexpr double kLeastTurn = 0.03;
+constexpr int kSearchRounds = 4;  // of lamps and albedo in turn
 constexpr float kMaxInverseDistance = 10.0f;
 constexpr double kSettledTurn = 2e-4;  // radians an iteration
 
@@ -142,12 +145,20 @@ void LampEstimator::choose(const Observations& images, SurfaceState& state) {
   far.lamps = estimate_far_lamps(images, far);
   const double far_scale = residual_scale(images, far);
   far_over_near_ = near_scale > 0 ? far_scale / near_scale : 1;
-  near_ = far_over_near_ > kClearlyBetter;
+  std::vector<Lamp> parallel = state.lamps;
+  for (Lamp& lamp : parallel) lamp.inverse_distance = 0;
+  const double turn = turn_at_rim(parallel, state.lamps, object_radius(state));
+  const bool better = far_over_near_ > kClearlyBetter;
+  near_ = better && turn > kLeastTurn;
   settled_ = settled_ || !near_;
-  if (!near_) { state = std::move(far_state_); }
-  explanation_ = with_number(near_ ? "near lamps: the far model's residual is %.2f times as large"
-                                   : "far lamps: the near model fits no better (far / near residual %.2f)",
-                             far_over_near_);
+  if (!near_) state = std::move(far_state_);
+  if (better && !near_) {
+    explanation_ = with_number("far lamps: their light turns by %.3f rad over the object only", turn);
+  } else {
+    explanation_ = with_number(near_ ? "near lamps: the far model's residual is %.2f times as large"
+                                     : "far lamps: the near model fits no better (far / near residual %.2f)",
+                               far_over_near_);
+  }
 }
 
 }  // namespace rakelight
