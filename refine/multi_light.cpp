@@ -99,7 +99,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   LampEstimator lamps(options.lamps);
   DepthPrior prior = problem.prior;
   MeasuredNoise noise;
-  std::vector<PhotometricTensor> tensors;
+  PhotometricTensors tensors;
   std::vector<std::array<float, 4>> weights;
 
   for (int t = 1; t <= options.max_iterations; ++t) {

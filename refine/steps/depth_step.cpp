@@ -103,60 +103,10 @@ void gather_rows(const PixelGrid& grid, const std::vector<PixelRows>& all, int p
       left.bx[0] + right.bx[1] + up.by[0] + down.by[1] - (own.bx[0] + own.bx[1] + own.by[0] + own.by[1]);
 }
 
-/// Adds w (rho l_c, rest) of the lit channels to the tensor; light of a near lamp is one vector times a strength.
-void add_near_sample(const Eigen::Vector3f& v, const Eigen::Vector3f& strength, const Eigen::Vector3f& rest,
-                     float weight, PhotometricTensor& sum) {
-  sum.G.noalias() += (weight * strength.squaredNorm()) * v * v.transpose();
-  sum.h += weight * strength.dot(rest) * v;
-}
-
-void add_far_sample(const Eigen::Matrix3f& l, const Eigen::Vector3f& lit, const Eigen::Vector3f& rest,
-                    float weight, PhotometricTensor& sum) {
-  for (int c = 0; c < 3; ++c) {
-    if (lit[c] == 0.0f) continue;
-    const Eigen::Vector3f lc = lit[c] * l.row(c).transpose();
-    sum.G.noalias() += (weight * lc) * lc.transpose();
-    sum.h += weight * rest[c] * lc;
-  }
-}
-
 }  // namespace
 
-std::vector<PhotometricTensor> accumulate_tensors(const Observations& images, const SurfaceState& state) {
-  std::vector<PhotometricTensor> tensors(static_cast<size_t>(images.pixels));
-  for_each_block(images.pixels, [&](int begin, int end) {
-    for (int i = 0; i < images.images; ++i) {
-      const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
-      const float* weight = state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
-      for (int p = begin; p < end; ++p) {
-        if (weight[p] == 0.0f) continue;
-        PhotometricTensor& sum = tensors[static_cast<size_t>(p)];
-        const Eigen::Vector3f rho = images.usable_channels(i, p).cwiseProduct(state.albedo.col(p));
-        const Eigen::Vector3f n = state.normals.col(p);
-        const LocalLight far = lamp.second_order ? light_at(lamp, state.points.col(p), n, state.scene)
-                                                 : LocalLight{lamp.l, lamp.phi};
-        const Eigen::Vector3f rest =
-            images.usable_channels(i, p).cwiseProduct(images.radiance_at(i, p)) - rho.cwiseProduct(far.phi);
-        sum.e0 += weight[p] * rest.squaredNorm();
-        if (lamp.near) {
-          const Eigen::Vector3f v =
-              near_light_vector(lamp.direction, lamp.inverse_distance,
-                                state.points.col(p) - state.scene.center, state.scene.lobe_exponent);
-          if (!state.attached_shadows || v.dot(n) > 0.0f)
-            add_near_sample(v, rho.cwiseProduct(lamp.strength), rest, weight[p], sum);
-        } else {
-          Eigen::Vector3f lit = rho;
-          if (state.attached_shadows) lit = ((far.l * n).array() > 0.0f).select(lit, 0.0f);
-          add_far_sample(far.l, lit, rest, weight[p], sum);
-        }
-      }
-    }
-  });
-  return tensors;
-}
-
 std::vector<std::array<float, 4>> corner_weights(const PixelGrid& grid, const CornerList& corners,
-                                                 const std::vector<PhotometricTensor>& tensors,
+                                                 const PhotometricTensors& tensors,
                                                  const Eigen::VectorXd& zeta, double edge_weight) {
   std::vector<std::array<float, 4>> weights(static_cast<size_t>(grid.size()));
   for_each_block(grid.size(), [&](int begin, int end) {
@@ -200,7 +150,7 @@ DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zet
   for_each_block(pixels, [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
       const NormalFrame frame = normal_frame(problem.grid, p);
-      const PhotometricTensor& e = problem.tensors[static_cast<size_t>(p)];
+      const PhotometricTensor e = problem.tensors[static_cast<size_t>(p)];
       for_each_corner(problem.corners, p, [&](size_t k, const Corner& corner) {
         const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
         GradientEquations equations = linearization == Linearization::gauss_newton ? gauss_newton(e, frame, g)

@@ -12,31 +12,18 @@
 //   fixed point:   n = J' / d with d frozen                   (the paper)
 #pragma once
 
-#include "refine/observations.h"
 #include "refine/solver/depth_solver.h"
 #include "refine/steps/normals.h"
+#include "refine/steps/photometric_tensor.h"
 #include "refine/steps/super_resolution.h"
-#include "refine/surface_state.h"
 
 namespace rakelight {
-
-/// Quadratic form e(n) of one pixel.
-struct PhotometricTensor {
-  Eigen::Matrix3f G = Eigen::Matrix3f::Zero();
-  Eigen::Vector3f h = Eigen::Vector3f::Zero();
-  float e0 = 0;
-
-  float energy(const Eigen::Vector3f& n) const { return n.dot(G * n) - 2.0f * h.dot(n) + e0; }
-};
-
-/// Tensors of all pixels under the state's weights. Samples on the far side of a lamp (l.n <= 0) count in e0 only.
-std::vector<PhotometricTensor> accumulate_tensors(const Observations& images, const SurfaceState& state);
 
 /// Everything of a depth step that stays while the depth moves.
 struct DepthProblem {
   const PixelGrid& grid;
   const CornerList& corners;
-  const std::vector<PhotometricTensor>& tensors;
+  const PhotometricTensors& tensors;
   const std::vector<std::array<float, 4>>& corner_weight;  ///< see corner_weights
   const DepthPrior& prior;
   CurvatureWeights curvature = {};  ///< smoothness of zeta; empty: none
@@ -46,7 +33,7 @@ struct DepthProblem {
 /// so that gradients do not cross occlusions. The root makes a corner's say level off rather than vanish: without it, where
 /// lamps miss a little everywhere, the surface tears along lines instead of bending.
 std::vector<std::array<float, 4>> corner_weights(const PixelGrid& grid, const CornerList& corners,
-                                                 const std::vector<PhotometricTensor>& tensors,
+                                                 const PhotometricTensors& tensors,
                                                  const Eigen::VectorXd& zeta, double edge_weight);
 
 /// sum over corners of weight e(n) + the prior's energy + that of the curvature.

@@ -27,7 +27,7 @@ class RandomProblem {
       : random_(seed), corners_(make_corners(grid_, stencil)) {
     const size_t pixels = static_cast<size_t>(grid_.size());
     rows_.resize(pixels);
-    tensors_.resize(pixels);
+    tensors_ = PhotometricTensors(pixels);
     corner_weight_.resize(pixels);
     for (size_t p = 0; p < pixels; ++p) {
       for (int i = 0; i < 5; ++i) add_row(p, Eigen::Vector3d(uniform(), uniform(), -1), 0.8 + 0.4 * uniform());
@@ -53,7 +53,7 @@ class RandomProblem {
       const Corner& corner = corners_.corners[static_cast<size_t>(p)].front();
       auto& rows = rows_[static_cast<size_t>(p)];
       const std::vector<Row> old = std::exchange(rows, {});
-      tensors_[static_cast<size_t>(p)] = {};
+      tensors_.set(static_cast<size_t>(p), {});
       if (corner.x_neighbor < 0) continue;
       const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
       const Eigen::Vector3d n = normal_frame(grid_, p).raw(g.x(), g.y()).cast<double>().normalized();
@@ -72,16 +72,18 @@ class RandomProblem {
     rows_[p].push_back(row);
     const Eigen::Vector3f lf = l.cast<float>();
     const auto w = static_cast<float>(row.weight), r = static_cast<float>(rest);
-    tensors_[p].G += w * lf * lf.transpose();
-    tensors_[p].h += w * r * lf;
-    tensors_[p].e0 += w * r * r;
+    PhotometricTensor sum = tensors_[p];
+    sum.G += w * lf * lf.transpose();
+    sum.h += w * r * lf;
+    sum.e0 += w * r * r;
+    tensors_.set(p, sum);
   }
 
   std::mt19937 random_;
   PixelGrid grid_ = test::bitten_grid();
   CornerList corners_;
   std::vector<std::vector<Row>> rows_;
-  std::vector<PhotometricTensor> tensors_;
+  PhotometricTensors tensors_;
   std::vector<std::array<float, 4>> corner_weight_;
   DepthPrior prior_;
 };
@@ -150,7 +152,7 @@ TEST(Tensors, OfSecondOrderLampsHaveTheSlopeOfTheTrueEnergy) {
   };
   for (int p = 0; p < sphere.grid.size(); p += 7) {
     const Eigen::Vector3d n = state.normals.col(p).cast<double>();
-    const PhotometricTensor& tensor = tensors[static_cast<size_t>(p)];
+    const PhotometricTensor tensor = tensors[static_cast<size_t>(p)];
     EXPECT_NEAR(static_cast<double>(tensor.energy(n.cast<float>())), energy(p, n), 1e-4 + 1e-3 * energy(p, n));
     const Eigen::Vector3d slope = 2 * (tensor.G * n.cast<float>() - tensor.h).cast<double>();
     for (int k = 0; k < 3; ++k) {
@@ -298,9 +300,9 @@ TEST(CornerWeights, AreTheShareOfTheCornerWithoutEdgeWeighting) {
 TEST(CornerWeights, FallByTheRootOfTwoAtTheEdgeWeightTimesTheMedianEnergy) {
   const PixelGrid grid = make_pixel_grid({5, 5, 20, 20, 2, 2, {}}, cv::Mat1b(5, 5, uchar{255}));
   const CornerList corners = make_corners(grid, Stencil::symmetric);
-  std::vector<PhotometricTensor> tensors(25);
-  for (PhotometricTensor& tensor : tensors) tensor.e0 = 1;
-  tensors[12].e0 = 10;
+  PhotometricTensors tensors(25);
+  std::fill_n(tensors.part(PhotometricTensors::e0), 25, 1.0f);
+  tensors.part(PhotometricTensors::e0)[12] = 10;
   const auto weights = corner_weights(grid, corners, tensors, Eigen::VectorXd::Zero(25), 10);
   EXPECT_FLOAT_EQ(weights[12][0], 0.25f / std::sqrt(2.0f));
   EXPECT_FLOAT_EQ(weights[11][0], 0.25f / std::sqrt(1.1f));

@@ -66,7 +66,7 @@ TEST(Uncertainty, ScaledResidualsPullOnTheNormalsAsChangedImagesDo) {
 struct SensorAlone {
   MissedSphere missed;
   CornerList corners = make_corners(missed.sphere.grid, Stencil::symmetric);
-  std::vector<PhotometricTensor> tensors = std::vector<PhotometricTensor>(missed.sphere.grid.pixels.size());
+  PhotometricTensors tensors = PhotometricTensors(missed.sphere.grid.pixels.size());
   std::vector<std::array<float, 4>> weights{tensors.size(), std::array<float, 4>{0.25f, 0.25f, 0.25f, 0.25f}};
   DepthPrior prior;
 
