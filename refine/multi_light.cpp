@@ -100,7 +100,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   DepthPrior prior = problem.prior;
   MeasuredNoise noise;
   PhotometricTensors tensors;
-  std::vector<std::array<float, 4>> weights;
+  CornerWeights weights;
 
   for (int t = 1; t <= options.max_iterations; ++t) {
     IterationReport report;

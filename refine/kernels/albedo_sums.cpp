@@ -18,7 +18,7 @@ void add_albedo_sums(const TileSurface& surface, const TileLamp& lamp, const Til
   with_light(lamp, [&](auto light) {
     const D d;
     const V least = hn::Set(d, lamp.least);
-    for (int k = 0; k < kTilePixels; k += static_cast<int>(hn::Lanes(d))) {
+    for (int k = 0; k < kTilePixels; k += lanes()) {
       light.move_to(surface, k, load3(surface.normal, k));
       const V weight = hn::LoadU(d, image.weight + k);
       for (int c = 0; c < 3; ++c) {

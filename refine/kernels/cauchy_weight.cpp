@@ -19,7 +19,7 @@ void cauchy_weight(const TileSurface& surface, const TileLamp& lamp, const TileI
     const D d;
     const V least = hn::Set(d, lamp.least), inverse_square = hn::Set(d, 1.0f / (scale * scale));
     const V none = hn::Zero(d), one = hn::Set(d, 1.0f);
-    for (int k = 0; k < kTilePixels; k += static_cast<int>(hn::Lanes(d))) {
+    for (int k = 0; k < kTilePixels; k += lanes()) {
       light.move_to(surface, k, load3(surface.normal, k));
       V squares = none, channels = none;
       for (int c = 0; c < 3; ++c) {

@@ -13,41 +13,19 @@
 #include <hwy/highway.h>
 
 #include "refine/kernels/tile.h"
+#include "refine/kernels/vector3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rakelight::kernels {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
-
-struct Vector3 {
-  V x, y, z;
-};
-
 HWY_INLINE Vector3 load3(const TileRow (&rows)[3], int k) {
   const D d;
   return {hn::Load(d, rows[0].at + k), hn::Load(d, rows[1].at + k), hn::Load(d, rows[2].at + k)};
 }
 
-HWY_INLINE Vector3 set3(const float (&v)[3]) {
-  const D d;
-  return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
-}
-
-HWY_INLINE V dot(const Vector3& a, const Vector3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-
-HWY_INLINE Vector3 scaled(const Vector3& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
-
 /// 1 or 0 of the usable flags of a vector of pixels.
 HWY_INLINE V load_usable(const std::uint8_t* flags, int k) {
-  const D d;
-  const hn::Rebind<std::uint8_t, D> bytes;
-  const hn::Rebind<std::int32_t, D> ints;
-  return hn::ConvertTo(d, hn::PromoteTo(ints, hn::LoadU(bytes, flags + k)));
+  return hn::ConvertTo(D(), hn::PromoteTo(Ints(), hn::LoadU(Bytes(), flags + k)));
 }
 
 /// Light at the pixels k, k + 1, ... of a tile: S_c = max(least, l_c . n) + phi_c.

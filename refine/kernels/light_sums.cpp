@@ -22,7 +22,7 @@ void light_sums_of_channel(const TileSurface& surface, const TileLamp& lamp, con
   V a[10], r[4];
   for (V& each : a) each = hn::Zero(d);
   for (V& each : r) each = hn::Zero(d);
-  for (int k = 0; k < count; k += static_cast<int>(hn::Lanes(d))) {
+  for (int k = 0; k < count; k += lanes()) {
     Vector3 n = load3(surface.normal, k);
     const auto inside = hn::FirstN(d, static_cast<size_t>(count - k));
     const V trust = hn::IfThenElseZero(inside, hn::Mul(hn::LoadU(d, image.weight + k), load_usable(image.usable[c], k)));

@@ -76,7 +76,7 @@ void add_tensors(const TileSurface& surface, const TileLamp& lamp, const TileIma
   with_light(lamp, [&](auto light) {
     const D d;
     const V least = hn::Set(d, lamp.least);
-    for (int k = 0; k < kTilePixels; k += static_cast<int>(hn::Lanes(d))) {
+    for (int k = 0; k < kTilePixels; k += lanes()) {
       light.move_to(surface, k, load3(surface.normal, k));
       const V weight = hn::LoadU(d, image.weight + k);
       Sums sums(d);

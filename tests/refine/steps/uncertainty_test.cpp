@@ -67,7 +67,7 @@ struct SensorAlone {
   MissedSphere missed;
   CornerList corners = make_corners(missed.sphere.grid, Stencil::symmetric);
   PhotometricTensors tensors = PhotometricTensors(missed.sphere.grid.pixels.size());
-  std::vector<std::array<float, 4>> weights{tensors.size(), std::array<float, 4>{0.25f, 0.25f, 0.25f, 0.25f}};
+  CornerWeights weights = CornerWeights(tensors.size());
   DepthPrior prior;
 
   explicit SensorAlone(double deviation) {
