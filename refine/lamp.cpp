@@ -4,17 +4,21 @@
 
 #include <cmath>
 
+#include "refine/pixel_blocks.h"
+
 namespace rakelight {
 
 Eigen::Matrix3Xf surface_points(const PixelGrid& grid, const Eigen::VectorXd& zeta) {
   const Camera& camera = grid.camera;
   Eigen::Matrix3Xf points(3, grid.size());
-  for (int p = 0; p < grid.size(); ++p) {
-    const cv::Point& pixel = grid.pixels[static_cast<size_t>(p)];
-    const double z = std::exp(zeta[p]);
-    points.col(p) = Eigen::Vector3d((pixel.x - camera.cx) / camera.fx * z, (pixel.y - camera.cy) / camera.fy * z, z)
-                        .cast<float>();
-  }
+  for_each_block(grid.size(), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      const cv::Point& pixel = grid.pixels[static_cast<size_t>(p)];
+      const double z = std::exp(zeta[p]);
+      points.col(p) = Eigen::Vector3d((pixel.x - camera.cx) / camera.fx * z, (pixel.y - camera.cy) / camera.fy * z, z)
+                          .cast<float>();
+    }
+  });
   return points;
 }
 

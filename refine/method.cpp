@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "refine/pixel_blocks.h"
 #include "refine/steps/robust_weights.h"
 
 namespace rakelight {
@@ -21,7 +22,15 @@ SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& op
 }
 
 double rms_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  return 1e3 * std::sqrt((after.array().exp() - before.array().exp()).square().mean());
+  const double sum = sum_over_blocks(static_cast<int>(before.size()), 0.0, [&](int begin, int end) {
+    double part = 0;
+    for (int p = begin; p < end; ++p) {
+      const float z = std::exp(static_cast<float>(before[p]));
+      part += std::pow(static_cast<double>(z) * std::expm1(after[p] - before[p]), 2);
+    }
+    return part;
+  });
+  return 1e3 * std::sqrt(sum / static_cast<double>(before.size()));
 }
 
 }  // namespace rakelight

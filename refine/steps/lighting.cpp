@@ -41,8 +41,7 @@ Eigen::Matrix3f second_order_matrix(const Eigen::Matrix<float, 5, 1>& s) {
 LightEquations<9> second_order_equations(const Observations& images, int image, int channel,
                                          const SurfaceState& state) {
   constexpr int N = 9;
-  const float* radiance = images.channel(image, channel);
-  const unsigned char* usable = images.usable_in(image, channel);
+  const ChannelSamples radiance = images.channel(image, channel);
   const float* weight = state.weight.data() + static_cast<size_t>(image) * static_cast<size_t>(images.pixels);
   constexpr Eigen::Index kRun = 256;
   LightEquations<N> sum;
@@ -53,9 +52,9 @@ LightEquations<9> second_order_equations(const Observations& images, int image, 
     for (Eigen::Index p = begin; p < end; ++p) {
       const Eigen::Matrix<float, N, 1> h = harmonics(state.normals.col(p));
       const float rho = state.albedo(channel, p);
-      const float trust = weight[p] * static_cast<float>(usable[p]);
+      const float trust = radiance.usable(static_cast<int>(p)) ? weight[p] : 0.0f;
       A.noalias() += (trust * rho * rho) * h * h.transpose();
-      b += (trust * rho * radiance[p]) * h;
+      b += (trust * rho * radiance[static_cast<int>(p)]) * h;
     }
     sum.A += A.cast<double>();
     sum.b += b.cast<double>();
