@@ -21,25 +21,32 @@ cv::Matx33d intrinsic_matrix(const Camera& camera) {
 /// Brings full-size colour images to the grid: removes lens distortion, then averages blocks.
 class ColorSampler {
  public:
-  ColorSampler(const Camera& color_camera, const Camera& grid_camera) : size_(grid_camera.size()) {
+  ColorSampler(const Camera& color_camera, const Camera& grid_camera)
+      : full_(color_camera.size()), size_(grid_camera.size()) {
     if (color_camera.distortion.empty()) return;
     const cv::Matx33d K = intrinsic_matrix(color_camera);
     cv::initUndistortRectifyMap(K, color_camera.distortion, cv::noArray(), K, color_camera.size(), CV_32FC1, map_x_,
                                 map_y_);
   }
 
+  /// The part of the full-size image that a part of the grid is sampled from: that part where pixels stay where they are,
+  /// else everything.
+  cv::Rect needed(const cv::Rect& part, cv::Size full) const {
+    return map_x_.empty() && full == size_ ? part : cv::Rect({0, 0}, full);
+  }
+
   template <class Image>
   Image operator()(const Image& full) const {
     Image straight = full;
     if (!map_x_.empty()) cv::remap(full, straight, map_x_, map_y_, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
-    if (straight.size() == size_) return straight;
+    if (straight.size() == size_ || straight.size() != full_) return straight;
     Image small;
     cv::resize(straight, small, size_, 0, 0, cv::INTER_AREA);
     return small;
   }
 
  private:
-  cv::Size size_;
+  cv::Size full_, size_;
   cv::Mat map_x_, map_y_;
 };
 
@@ -63,14 +70,15 @@ const Light& light_of(const LightStack& stack, const Frame& frame) {
                    "list it under lights");
 }
 
-/// Colour of the grid's pixels as an image's samples.
-void set_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& clipped, int image, Observations& out) {
+/// Colour of the grid's pixels as an image's samples. @param origin of the images on the grid's camera
+void set_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& clipped, cv::Point origin, int image,
+               Observations& out) {
   std::vector<float> radiance(static_cast<size_t>(grid.size()));
   std::vector<unsigned char> usable(radiance.size());
   for (int c = 0; c < 3; ++c) {
     for (size_t p = 0; p < radiance.size(); ++p) {
-      radiance[p] = color(grid.pixels[p])[c];
-      usable[p] = clipped(grid.pixels[p])[c] == 0;
+      radiance[p] = color(grid.pixels[p] - origin)[c];
+      usable[p] = clipped(grid.pixels[p] - origin)[c] == 0;
     }
     out.set_channel(image, c, radiance.data(), usable.data());
   }
@@ -164,14 +172,16 @@ Observations observe(const LightStack& stack, const PixelGrid& grid) {
   }
   const ColorSampler sample(stack.color_camera, grid.camera);
   const cv::Mat3f ambient = ambient_image(stack);
+  const cv::Rect needed = sample.needed(grid.box, stack.color_camera.size());
   cv::parallel_for_(cv::Range(0, out.images), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
-      const Frame& frame = *lit[static_cast<size_t>(i)];
+      Frame frame;
+      frame.color = lit[static_cast<size_t>(i)]->color(needed);
       cv::Mat3f color = linear_color(stack, frame);
-      if (!ambient.empty()) color -= ambient;
+      if (!ambient.empty()) color -= ambient(needed);
       cv::Mat3b clipped = saturated_channels(frame);
       if (!stack.color_crosstalk.isIdentity()) cv::merge(std::vector<cv::Mat>(3, saturated(frame)), clipped);
-      set_image(grid, sample(color), sample(clipped), i, out);
+      set_image(grid, sample(color), sample(clipped), needed.size() == grid.box.size() ? needed.tl() : cv::Point(), i, out);
     }
   });
   return out;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "refine/kernels/image_kernels.h"
+
 namespace rakelight {
 namespace {
 
@@ -12,9 +14,7 @@ using kernels::kTilePixels;
 
 /// Columns [begin, begin + count) of a 3 x pixels matrix as planar rows; the rest repeats the last column.
 void copy_planar(const Eigen::Matrix3Xf& from, int begin, int count, kernels::TileRow (&rows)[3]) {
-  const float* values = from.data() + 3 * static_cast<std::ptrdiff_t>(begin);
-  for (int k = 0; k < count; ++k)
-    for (int c = 0; c < 3; ++c) rows[c].at[k] = values[3 * k + c];
+  kernels::deinterleave3(from.data() + 3 * static_cast<std::ptrdiff_t>(begin), count, rows);
   for (int c = 0; c < 3; ++c) std::fill(rows[c].at + count, rows[c].at + kTilePixels, rows[c].at[count - 1]);
 }
 
