@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "viewer/gl/display_loss.h"
 #include "viewer/gl/gl_object.h"
 
 namespace rakelight {
@@ -45,6 +46,7 @@ GlfwWindowPtr make_glfw_window(const std::string& title, int width, int height, 
       throw;
     }
   }
+  watch_for_display_loss();
   glfwMakeContextCurrent(window.get());
   require_opengl_33("the window");
   return window;

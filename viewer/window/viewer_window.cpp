@@ -11,6 +11,7 @@
 #include "stack/errors.h"
 #include "stack/image_file.h"
 #include "viewer/commands.h"
+#include "viewer/gl/display_loss.h"
 #include "viewer/gl/framebuffer.h"
 #include "viewer/gl/glfw_window.h"
 #include "viewer/gl/scene_renderer.h"
@@ -73,6 +74,7 @@ struct ViewerWindow::Impl {
     return size;
   }
   void listen();
+  void press(const std::string& key);
   void click(const cv::Point2d& at);
   void open(const std::filesystem::path& folder);
   void replace(Scene scene, const Look& look, const ViewPoint& view);
@@ -112,13 +114,22 @@ void ViewerWindow::Impl::listen() {
   });
   glfwSetKeyCallback(glfw, [](GLFWwindow* w, int key, int scancode, int action, int) {
     Impl& impl = *owner(w);
-    if (action == GLFW_PRESS && impl.shown) press_key(key_name(key, scancode), impl.state, impl.shown->scene);
+    if (action == GLFW_PRESS) impl.press(key_name(key, scancode));
   });
   glfwSetDropCallback(glfw, [](GLFWwindow* w, int count, const char** paths) {
     if (count > 0) owner(w)->open(paths[0]);
   });
   glfwSetWindowRefreshCallback(glfw, [](GLFWwindow* w) { owner(w); });
   glfwSetFramebufferSizeCallback(glfw, [](GLFWwindow* w, int, int) { owner(w); });
+}
+
+/// Live pictures can only be left.
+void ViewerWindow::Impl::press(const std::string& key) {
+  if (shown) {
+    press_key(key, state, shown->scene);
+  } else if (key == "Q") {
+    state.wants_quit = true;
+  }
 }
 
 void ViewerWindow::Impl::click(const cv::Point2d& at) {
@@ -153,6 +164,7 @@ void ViewerWindow::Impl::replace(Scene scene, const Look& look, const ViewPoint&
   state.tool = Tool::none;
   shown = std::move(next);
   live.reset();
+  frames_to_draw = kSettlingFrames;
   glfwSetWindowTitle(window.get(), ("Rakelight - " + shown->scene.title).c_str());
 }
 
@@ -257,6 +269,7 @@ bool ViewerWindow::step(double most_wait) {
   } else {
     glfwWaitEventsTimeout(most_wait);
   }
+  require_display();
   if (impl_->state.wants_quit || glfwWindowShouldClose(impl_->window.get()) == GLFW_TRUE) return false;
   if (impl_->frames_to_draw == 0) return true;
   --impl_->frames_to_draw;
