@@ -193,6 +193,7 @@ int scan_and_refine(const Rig& rig, std::unique_ptr<Lights> lights, const Argume
                     ScanView& view) {
   ScanFolder folder(arguments.output, arguments.resume);
   ScanResult scan = scan_with_bar(rig, std::move(lights), arguments, folder, view);
+  scan.stack.origin = arguments.output.string();
   put_mask(scan.stack, arguments.mask);
   folder.finish(scan.stack);
   write_virtual_truth(rig, arguments.output);

@@ -23,6 +23,9 @@ class ShownScene {
   const Scene& scene() const { return scene_; }
   Box bounds() { return surfaces_.bounds(); }
 
+  /// The same scene and more: the layers that were there stay as they were.
+  void extend(Scene scene) { scene_ = std::move(scene); }
+
   /// Fills the window. A layer that cannot be drawn is refused in the status, and the look before it comes back.
   /// @param size pixels
   void draw(ViewState& state, const cv::Size& size, Detail detail);

@@ -4,8 +4,11 @@
 
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <optional>
 
 #include "stack/image_file.h"
@@ -40,6 +43,7 @@ struct ViewerWindow::Impl {
   std::optional<Interface> interface;
   std::unique_ptr<ShownScene> shown;
   std::unique_ptr<LivePictures> live;
+  std::future<Scene> with_its_stack;  ///< what is shown, with its scan, while that is read
   ViewState state;
   MouseControl mouse{[this](const cv::Point2d& at) {
     if (shown) shown->click(state, device_coordinates(at, units()));
@@ -62,6 +66,7 @@ struct ViewerWindow::Impl {
   void press_key(const std::string& key);
   void open(const std::filesystem::path& folder);
   void replace(Scene scene, const Look& look, const ViewPoint& view);
+  void show_stack_when_read();
   void draw(Detail detail);
   void save_picture(const cv::Size& size);
 };
@@ -105,6 +110,9 @@ void ViewerWindow::Impl::replace(Scene scene, const Look& look, const ViewPoint&
   state.tool = Tool::none;
   shown = std::move(next);
   live.reset();
+  with_its_stack = {};
+  if (!shown->scene().stack.empty())
+    with_its_stack = std::async(std::launch::async, with_stack, shown->scene());
   frames_to_draw = kSettlingFrames;
   glfwSetWindowTitle(window.get(), ("Rakelight - " + shown->scene().title).c_str());
 }
@@ -116,6 +124,14 @@ void ViewerWindow::Impl::open(const std::filesystem::path& folder) {
     replace(std::move(scene), look, {});
     state.status = "opened " + folder.string();
   } catch (const std::exception& error) { state.status = error.what(); }
+}
+
+void ViewerWindow::Impl::show_stack_when_read() {
+  if (!with_its_stack.valid() ||
+      with_its_stack.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return;
+  shown->extend(with_its_stack.get());
+  frames_to_draw = kSettlingFrames;
 }
 
 void ViewerWindow::Impl::save_picture(const cv::Size& size) {
@@ -166,10 +182,12 @@ void ViewerWindow::update(Scene scene) {
   auto next = std::make_unique<ShownScene>(std::move(scene), impl_->state.look);
   impl_->state.bounds = next->bounds();
   impl_->shown = std::move(next);
+  impl_->with_its_stack = {};
   impl_->frames_to_draw = kSettlingFrames;
 }
 
 void ViewerWindow::show_pictures(const cv::Mat3b& color, const cv::Mat3b& depth) {
+  impl_->with_its_stack = {};
   impl_->shown.reset();
   if (!impl_->live) impl_->live = std::make_unique<LivePictures>();
   impl_->live->set(color, depth);
@@ -185,9 +203,11 @@ bool ViewerWindow::step(double most_wait) {
   if (impl_->frames_to_draw > 0) {
     glfwPollEvents();
   } else {
-    glfwWaitEventsTimeout(most_wait);
+    constexpr double kReading = 0.05;  // seconds
+    glfwWaitEventsTimeout(impl_->with_its_stack.valid() ? std::min(most_wait, kReading) : most_wait);
   }
   require_display();
+  impl_->show_stack_when_read();
   if (impl_->state.wants_quit || glfwWindowShouldClose(impl_->window.get()) == GLFW_TRUE) return false;
   if (impl_->frames_to_draw == 0) return true;
   --impl_->frames_to_draw;
