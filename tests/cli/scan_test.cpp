@@ -11,6 +11,7 @@
 
 #include "capture/rig.h"
 #include "stack/stack_io.h"
+#include "tests/cli/small_virtual_rig.h"
 #include "tests/support/file_edits.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -23,16 +24,6 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
-
-/// The example file of the virtual rig with small pictures, so that rendering and refining take no time.
-fs::path small_virtual_rig(const TemporaryFolder& home) {
-  const fs::path rig = home / "rig.toml";
-  set_text(rig, text_of(fs::path(RAKELIGHT_SOURCE_DIR) / "hw/rigs/virtual.toml"));
-  for (const std::string stream : {"color", "depth"})
-    replace_in_file(rig, stream + " = { width = 640, height = 480",
-                    stream + " = { width = 320, height = 240");
-  return rig;
-}
 
 /// What a scan of that rig keeps when all is well: dark, 15 lamps, the colour shot, dark.
 std::size_t whole_scan() { return virtual_rig().lamps.size() + 3; }
@@ -55,9 +46,7 @@ std::size_t images_so_far(const fs::path& folder) {
   if (!fs::exists(folder / "scan.json")) return 0;
   std::size_t count = 0;
   const json state = json::parse(text_of(folder / "scan.json"));
-  for (const json& frame : state["frames"]) {
-    count += frame.contains("color") ? 1U : 0U;
-  }
+  for (const json& frame : state["frames"]) { count += frame.contains("color") ? 1U : 0U; }
   return count;
 }
 
