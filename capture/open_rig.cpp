@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "capture/following_lamps.h"
 #include "capture/oni_file.h"
 #include "capture/openni_source.h"
 #include "capture/replay_source.h"
@@ -13,13 +14,23 @@
 
 namespace rakelight {
 
+namespace {
+
+std::unique_ptr<LineBank> open_bank(const Rig& rig) {
+  if (!rig.virtual_rig) return open_rig_bank(rig);
+  if (!rig.virtual_rig->lamps_on_lines) return open_virtual_bank(rig);
+  std::unique_ptr<LineBank> lines = open_rig_bank(rig);  // first: the virtual lamps start threads
+  return follow_lines(std::move(lines), open_virtual_bank(rig));
+}
+
+}  // namespace
+
 std::unique_ptr<Lights> open_lights(const Rig& rig) {
-  if (!rig.virtual_rig) return open_rig_lights(rig);
   std::vector<std::string> ids;
   for (const RigLamp& lamp : rig.lamps) ids.push_back(lamp.id);
   LightsOptions options;
   options.max_on = std::chrono::milliseconds(rig.max_on_ms);
-  return std::make_unique<Lights>(std::move(ids), open_virtual_bank(rig), options);
+  return std::make_unique<Lights>(std::move(ids), open_bank(rig), options);
 }
 
 std::unique_ptr<FrameSource> open_frame_source(const Rig& rig) {

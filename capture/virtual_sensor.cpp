@@ -40,6 +40,15 @@ class VirtualBank : public LineBank {
     }
   }
 
+  /// The lamps themselves rather than their lines: a lamp that is burnt out is not lit.
+  std::vector<bool> read() override {
+    std::vector<char> lit(lamps_);
+    if (!device_->get_property(driver_protocol::kLamps, lit.data(), lit.size()))
+      throw openni_error(std::errc::io_error, "cannot read the virtual lamps",
+                         "open lamps and sensor with one rig");
+    return {lit.begin(), lit.end()};
+  }
+
  private:
   std::size_t lamps_;
   std::unique_ptr<OpenniDevice> device_;

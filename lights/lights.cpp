@@ -107,6 +107,16 @@ SwitchTime Lights::all_off() {
   return time;
 }
 
+std::vector<std::string> Lights::lit() const {
+  const std::lock_guard lock(state_->mutex);
+  const std::vector<bool> levels = state_->bank->read();
+  std::vector<std::string> lit;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    if (levels[k]) lit.push_back(state_->ids[k]);
+  }
+  return lit;
+}
+
 bool Lights::watchdog_tripped() const {
   const std::lock_guard lock(state_->mutex);
   return state_->watchdog.tripped();

@@ -276,12 +276,18 @@ class SimulatedSource : public FrameSource {
 
 class SimulatedBank : public LineBank {
  public:
-  explicit SimulatedBank(std::shared_ptr<SimulatedRig::World> world) : world_(std::move(world)) {}
+  explicit SimulatedBank(std::shared_ptr<SimulatedRig::World> world)
+      : world_(std::move(world)), written_(size(), false) {}
   std::size_t size() const override { return world_->rig.lamps.size(); }
-  void write(const std::vector<bool>& lit) override { world_->write(lit); }
+  void write(const std::vector<bool>& lit) override {
+    world_->write(lit);
+    written_ = lit;
+  }
+  std::vector<bool> read() override { return written_; }
 
  private:
   std::shared_ptr<SimulatedRig::World> world_;
+  std::vector<bool> written_;
 };
 
 }  // namespace

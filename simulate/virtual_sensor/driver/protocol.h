@@ -18,7 +18,8 @@ constexpr const char* kFeedUri = "rakelight-feed";
 /// Device, text: what the device shall be. Virtual: JSON as virtual_sensor/setup.h says; the scene is rendered before
 /// the call returns. Feed: FeedSetup. Not while a stream runs.
 constexpr int kSetup = 0x1D270002;
-/// Virtual device, a byte a lamp (0 off, 1 on) in the setup's order: the lines' levels from now on.
+/// Virtual device, a byte a lamp (0 off, 1 on) in the setup's order. Set: the lines' levels from now on. Get: which
+/// lamps give light now, which is another thing where they have faults.
 constexpr int kLamps = 0x1D270001;
 /// Feed stream, PushedFrame: goes through as a frame of the stream at once.
 constexpr int kPushFrame = 0x1D270003;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate/virtual_sensor/driver/virtual_device.h"
 
+#include <algorithm>
+
 #include "simulate/virtual_sensor/driver/color_stream.h"
 #include "simulate/virtual_sensor/driver/depth_stream.h"
 #include "simulate/virtual_sensor/driver/protocol.h"
@@ -47,6 +49,12 @@ OniStatus VirtualDevice::setProperty(int id, const void* data, int size) {
 }
 
 OniStatus VirtualDevice::getProperty(int id, void* data, int* size) {
+  if (id == driver_protocol::kLamps) {
+    const std::vector<bool> lit = rig_->lit_lamps();
+    if (*size != static_cast<int>(lit.size())) return ONI_STATUS_BAD_PARAMETER;
+    std::copy(lit.begin(), lit.end(), static_cast<char*>(data));
+    return ONI_STATUS_OK;
+  }
   if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION) return ONI_STATUS_NOT_SUPPORTED;
   const OniImageRegistrationMode mode =
       rig_->registered() ? ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR : ONI_IMAGE_REGISTRATION_OFF;

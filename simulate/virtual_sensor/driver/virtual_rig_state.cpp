@@ -42,6 +42,13 @@ bool VirtualRigState::write_lamps(const std::vector<bool>& lines) {
   return true;
 }
 
+std::vector<bool> VirtualRigState::lit_lamps() const {
+  const std::lock_guard<std::mutex> lock(lamps_mutex_);
+  std::vector<bool> lit(lamps_->size());
+  for (std::size_t lamp = 0; lamp < lit.size(); ++lamp) lit[lamp] = lamps_->lit_at(lamp, host_now_us());
+  return lit;
+}
+
 std::vector<LampRows> VirtualRigState::light(const RollingShutter& shutter, double start_us) const {
   const std::lock_guard<std::mutex> lock(lamps_mutex_);
   return frame_light(*lamps_, shutter, *epoch_us_ + start_us);

@@ -28,6 +28,9 @@ class VirtualRigState {
   /// Levels of all lines from now on; false if their number is wrong.
   bool write_lamps(const std::vector<bool>& lines);
 
+  /// Which lamps give light now.
+  std::vector<bool> lit_lamps() const;
+
   /// The lamps' light in a frame that starts at `start_us` of the sensor's clock.
   std::vector<LampRows> light(const RollingShutter& shutter, double start_us) const;
 
