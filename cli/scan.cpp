@@ -14,6 +14,7 @@
 #include "capture/open_rig.h"
 #include "capture/rig_file.h"
 #include "capture/scan_folder.h"
+#include "capture/virtual_sensor.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
@@ -21,12 +22,7 @@
 #include "refine/refine.h"
 #include "stack/errors.h"
 #include "stack/stack_io.h"
-
-#ifdef RAKELIGHT_HAS_SIMULATE
-#include "capture/virtual_sensor.h"
-#include "simulate/virtual_sensor/virtual_scene.h"
 #include "stack/truth_io.h"
-#endif
 
 namespace rakelight::cli {
 namespace {
@@ -79,7 +75,12 @@ std::string kept(ScanFolder& folder, const Arguments& arguments) {
          ": complete the scan with 'rakelight scan" + rig + " -o " + arguments.output.string() + " --resume'";
 }
 
-ScanResult scan_with_bar(const Rig& rig, const Arguments& arguments, ScanFolder& folder) {
+struct Scanned {
+  ScanResult scan;
+  std::optional<GroundTruth> truth;  ///< what a virtual sensor looked at
+};
+
+Scanned scan_with_bar(const Rig& rig, const Arguments& arguments, ScanFolder& folder) {
   ProgressBar bar;
   const auto show = [&bar](const ScanProgress& progress) {
     bar.show({progress.stage, progress.fraction_done});
@@ -88,7 +89,10 @@ ScanResult scan_with_bar(const Rig& rig, const Arguments& arguments, ScanFolder&
   try {
     const auto lights = open_lights(rig);  // first: it forks the lamps' guard, before there are threads
     const auto source = open_frame_source(rig);
-    return capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder), show);
+    Scanned scanned{
+        capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder), show), {}};
+    if (rig.virtual_rig) scanned.truth = virtual_truth(rig);
+    return scanned;
   } catch (const Cancelled&) { throw Cancelled(kept(folder, arguments)); } catch (const SensorLost& lost) {
     throw DeviceError(std::string(lost.what()) + "; " + kept(folder, arguments));
   }
@@ -101,16 +105,10 @@ void put_mask(LightStack& stack, const std::string& mask) {
     spdlog::warn("scan: no object stands out in depth and light, so the stack has no mask");
 }
 
-/// What the virtual sensor looked at, for `evaluate`, beside the images.
-void write_virtual_truth(const Rig& rig, const fs::path& stack) {
-#ifdef RAKELIGHT_HAS_SIMULATE
-  if (!rig.virtual_rig) return;
-  const VirtualSensorSetup setup = parse_virtual_setup(virtual_sensor_text(rig));
+/// For `evaluate`, beside the images.
+void write_truth_of(const fs::path& stack, const GroundTruth& truth) {
   fs::create_directories(stack / "truth");
-  write_truth(VirtualScene(setup).truth(setup.color_size), stack / "truth");
-#else
-  (void)rig, (void)stack;
-#endif
+  write_truth(truth, stack / "truth");
 }
 
 RefineResult refine_with_bar(const LightStack& stack) {
@@ -181,10 +179,10 @@ int run(const Arguments& arguments) {
   const Rig rig = rig_of(arguments);
   if (!arguments.refined.empty()) check_result_folder(arguments.refined);
   ScanFolder folder(arguments.output, arguments.resume);
-  ScanResult scan = scan_with_bar(rig, arguments, folder);
+  auto [scan, truth] = scan_with_bar(rig, arguments, folder);
   put_mask(scan.stack, arguments.mask);
   folder.finish(scan.stack);
-  write_virtual_truth(rig, arguments.output);
+  if (truth) write_truth_of(arguments.output, *truth);
   for (const std::string& warning : scan.warnings) spdlog::warn("scan: {}", warning);
   if (!arguments.json) print_report(scan, arguments);
   json report = report_json(scan, arguments);
