@@ -53,8 +53,9 @@ class Lights {
   Lights& operator=(const Lights&) = delete;
 
   const std::vector<std::string>& ids() const;
-  /// All off, then exactly these on. An empty list is all_off(). If a line fails, all are off again, as far as they
-  /// still obey. @throws std::invalid_argument for an unknown id, std::system_error where a line cannot be switched.
+  /// What is lit off, then exactly these on, none for an empty list. A lamp goes off and comes on as long after the write
+  /// as with any other call: lines that stay as they are are not written. If a line fails, all are off again, as far as
+  /// they still obey. @throws std::invalid_argument for an unknown id, std::system_error where a line cannot be switched.
   SwitchTime show(const std::vector<std::string>& ids);
   /// Writes "off" to every line, whatever was written before. @throws std::system_error
   SwitchTime all_off();

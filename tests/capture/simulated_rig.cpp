@@ -111,9 +111,11 @@ struct SimulatedRig::World {
     return line;
   }
 
-  void write(const std::vector<bool>& lit) {
+  /// @param all also writes the lines that stay as they are
+  void write(const std::vector<bool>& lit, bool all) {
     clock.sleep_until(clock.now_us() + rounded(options.board_us / 2));
     for (std::size_t line = 0; line < lit.size(); ++line) {
+      if (all || lit[line] != written[line]) clock.sleep_until(clock.now_us() + rounded(options.line_us));
       if (lit[line] == written[line]) continue;
       written[line] = lit[line];
       const double latency = options.lamp_latency_us + uniform(options.lamp_jitter_us);
@@ -280,7 +282,11 @@ class SimulatedBank : public LineBank {
       : world_(std::move(world)), written_(size(), false) {}
   std::size_t size() const override { return world_->rig.lamps.size(); }
   void write(const std::vector<bool>& lit) override {
-    world_->write(lit);
+    world_->write(lit, true);
+    written_ = lit;
+  }
+  void write_changes(const std::vector<bool>& lit) override {
+    world_->write(lit, false);
     written_ = lit;
   }
   std::vector<bool> read() override { return written_; }

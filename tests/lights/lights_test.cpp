@@ -107,6 +107,15 @@ TEST(Lights, ShowNothingForAnEmptyList) {
   EXPECT_EQ(log.seen().back(), "000");
 }
 
+TEST(Lights, AreNotTakenForLitAfterNothingWasShown) {
+  Log log;
+  Lights lights(kIds, bank(log), {50ms});
+  lights.show({"red"});
+  lights.show({});
+  std::this_thread::sleep_for(150ms);
+  EXPECT_FALSE(lights.watchdog_tripped());
+}
+
 TEST(Lights, AreOffAfterDestruction) {
   Log log;
   { Lights(kIds, bank(log)).show({"red"}); }
