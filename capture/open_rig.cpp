@@ -33,13 +33,15 @@ std::unique_ptr<Lights> open_lights(const Rig& rig) {
   return std::make_unique<Lights>(std::move(ids), open_bank(rig), options);
 }
 
+bool is_recording(const Rig& rig) {
+  const std::filesystem::path place = rig.sensor.uri;
+  return !rig.virtual_rig && (place.extension() == ".oni" || std::filesystem::is_directory(place));
+}
+
 std::unique_ptr<FrameSource> open_frame_source(const Rig& rig) {
-  const std::filesystem::path recording = rig.sensor.uri;
-  if (!rig.virtual_rig && recording.extension() == ".oni")
-    return open_replay_source(import_oni(recording, {}));
-  if (!rig.virtual_rig && std::filesystem::is_directory(recording))
-    return open_replay_source(read_stack(recording));
-  return open_openni_source(rig);
+  if (!is_recording(rig)) return open_openni_source(rig);
+  const std::filesystem::path place = rig.sensor.uri;
+  return open_replay_source(place.extension() == ".oni" ? import_oni(place, {}) : read_stack(place));
 }
 
 }  // namespace rakelight

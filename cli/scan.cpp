@@ -51,7 +51,11 @@ constexpr const char* kFooter = R"(Examples:
 A scan that is interrupted (130) or loses its sensor (4) switches the lamps off and keeps the images it has.)";
 
 Rig rig_of(const Arguments& arguments) {
-  return arguments.rig.empty() ? virtual_rig() : read_rig(arguments.rig);
+  Rig rig = arguments.rig.empty() ? virtual_rig() : read_rig(arguments.rig);
+  if (!is_recording(rig)) return rig;
+  throw UsageError("scan: the sensor of " + arguments.rig.string() + " is the recording " + rig.sensor.uri +
+                   ", which no lamp changes any more; refine a stack as it is, and turn an .oni file into one with "
+                   "'rakelight import oni'");
 }
 
 ScanOptions options_of(const Arguments& arguments, ScanFolder& folder) {

@@ -75,6 +75,17 @@ TEST(Scan, WritesAStackThatVerifiesWithItsTruthAndRefinesIt) {
   EXPECT_EQ(evaluated.exit_code, 0) << evaluated.err;
 }
 
+TEST(Scan, RefusesARecordingAsItsSensorBeforeItTouchesALamp) {
+  const TemporaryFolder home;
+  fs::create_directory(home / "old-scan");
+  set_text(home / "rig.toml", "[sensor]\nuri = \"" + (home / "old-scan").string() +
+                                  "\"\n[[lamps]]\nid = \"a\"\nchip = \"no such chip\"\noffset = 0\n");
+  const Ran ran = run({"scan", "--rig", home / "rig.toml", "-o", home / "scan"});
+  EXPECT_EQ(ran.exit_code, 2) << ran.err;
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("is the recording"), HasSubstr("rakelight import oni")));
+  EXPECT_FALSE(fs::exists(home / "scan"));
+}
+
 TEST(Scan, NamesTheLampsThatDoNotWork) {
   const TemporaryFolder home;
   const fs::path rig = small_virtual_rig(home);
