@@ -39,12 +39,13 @@ class LampEstimator {
   double far_over_near() const { return far_over_near_; }
 
  private:
-  NearLampOptions fit_options() const;
+  NearLampOptions fit_options(int iteration) const;
   void start_near(const Observations& images, SurfaceState& state);
   void choose(const Observations& images, SurfaceState& state);
 
   LampOptions options_;
   SurfaceState far_state_;  ///< what the far lamps had reached when near ones took over
+  Gloss gloss_ = Gloss::Zero();
   bool near_ = false;
   bool settled_ = true;
   double far_over_near_ = 0;

@@ -3,11 +3,12 @@
 #include "refine/steps/near_lamp_search.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <opencv2/core/utility.hpp>
 
 #include "refine/steps/near_lamp_incidence.h"
+#include "refine/steps/near_lamp_prior.h"
 
 namespace rakelight {
 namespace {
@@ -86,30 +87,54 @@ Eigen::Vector2f fit_strength(const Eigen::Matrix2f& A, const Eigen::Vector2f& b)
   return s;
 }
 
-/// Puts the lamp where sum |I - rho S| is least, if that is less than `least`.
-void try_places(const PlaceTable& table, const SampledImage& image, Lamp& lamp, float& least) {
+/// A lamp tried at a place.
+struct Trial {
+  Lamp lamp;
+  float misfit = 0;     ///< mean |I - rho S|
+  float log_power = 0;  ///< of refine/steps/near_lamp_prior.h
+};
+
+void try_places(const PlaceTable& table, const SampledImage& image, const Lamp& lamp, std::vector<Trial>& trials) {
   const auto count = static_cast<Eigen::Index>(table.places.size());
   const Eigen::MatrixX3f rho2 = image.rho.square(), rhoI = image.rho * image.I;
   const Eigen::MatrixX3f v = table.value.transpose() * rho2, vI = table.value.transpose() * rhoI;
   const Eigen::MatrixX3f vv = table.value.cwiseAbs2().transpose() * rho2;
   const Eigen::RowVector3f one = rho2.colwise().sum(), I = rhoI.colwise().sum();
   for (Eigen::Index k = 0; k < count; ++k) {
-    Lamp candidate = lamp;
-    float misfit = 0;
+    Trial trial{lamp};
     for (int c = 0; c < 3; ++c) {
       Eigen::Matrix2f A;
       A << vv(k, c), v(k, c), v(k, c), one[c];
       const Eigen::Vector2f s = fit_strength(A, {vI(k, c), I[c]});
-      misfit += (image.rho.col(c) * (s[0] * table.value.col(k).array() + s[1]) - image.I.col(c)).abs().sum();
-      candidate.strength[c] = s[0];
-      candidate.phi[c] = s[1];
+      trial.misfit +=
+          (image.rho.col(c) * (s[0] * table.value.col(k).array() + s[1]) - image.I.col(c)).abs().mean();
+      trial.lamp.strength[c] = s[0];
+      trial.lamp.phi[c] = s[1];
     }
-    if (misfit >= least) continue;
-    least = misfit;
-    lamp = candidate;
-    lamp.direction = table.places[static_cast<size_t>(k)].direction;
-    lamp.inverse_distance = table.places[static_cast<size_t>(k)].inverse_distance;
+    trial.lamp.direction = table.places[static_cast<size_t>(k)].direction;
+    trial.lamp.inverse_distance = table.places[static_cast<size_t>(k)].inverse_distance;
+    trial.log_power = static_cast<float>(log_lamp_power(trial.lamp));
+    trials.push_back(trial);
   }
+}
+
+/// The trial that image and the rig's usual log power (if known) make most likely: residuals of unknown scale, of which
+/// kCorrelation agree.
+const Trial& best_of(const std::vector<Trial>& trials, const float* usual_log_power, size_t samples) {
+  const auto score = [&](const Trial& trial) {
+    const float fit = static_cast<float>(samples) / static_cast<float>(kSamplesThatAgree) * std::log(trial.misfit + 1e-9f);
+    if (!usual_log_power) return fit;
+    const float off = (trial.log_power - *usual_log_power) / static_cast<float>(kLogPowerDeviation);
+    return fit + 0.5f * off * off;
+  };
+  return *std::min_element(trials.begin(), trials.end(),
+                           [&](const Trial& a, const Trial& b) { return score(a) < score(b); });
+}
+
+float median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace
@@ -117,19 +142,27 @@ void try_places(const PlaceTable& table, const SampledImage& image, Lamp& lamp, 
 std::vector<Lamp> search_near_lamps(const Observations& images, const SurfaceState& state) {
   const std::vector<int> pixels = sample_of_pixels(images.pixels);
   const PlaceTable everywhere(places_everywhere(), state, pixels);
-  std::vector<Lamp> lamps = state.lamps;
+  std::vector<std::vector<Trial>> trials(state.lamps.size());
   cv::parallel_for_(cv::Range(0, images.images), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
-      Lamp& lamp = lamps[static_cast<size_t>(i)];
+      const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
       if (!lamp.near) continue;
       const SampledImage image(images, state, i, pixels);
       std::vector<Place> at_hand;
       add_places(lamp.direction, at_hand);
-      float least = std::numeric_limits<float>::infinity();
-      try_places(PlaceTable(at_hand, state, pixels), image, lamp, least);
-      try_places(everywhere, image, lamp, least);
+      try_places(PlaceTable(at_hand, state, pixels), image, lamp, trials[static_cast<size_t>(i)]);
+      try_places(everywhere, image, lamp, trials[static_cast<size_t>(i)]);
     }
   });
+  const size_t samples = 3 * pixels.size();
+  std::vector<float> log_powers;
+  for (const auto& of_lamp : trials)
+    if (!of_lamp.empty()) log_powers.push_back(best_of(of_lamp, nullptr, samples).log_power);
+  if (log_powers.empty()) return state.lamps;
+  const float usual = median(log_powers);
+  std::vector<Lamp> lamps = state.lamps;
+  for (size_t i = 0; i < lamps.size(); ++i)
+    if (!trials[i].empty()) lamps[i] = best_of(trials[i], &usual, samples).lamp;
   return lamps;
 }
 

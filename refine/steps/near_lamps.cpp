@@ -8,6 +8,7 @@
 
 #include "refine/steps/near_lamp_equations.h"
 #include "refine/steps/near_lamp_incidence.h"
+#include "refine/steps/near_lamp_prior.h"
 
 namespace rakelight {
 namespace {
@@ -32,7 +33,8 @@ void lock(NearLampEquations& equations, Eigen::Index k) {
   equations.b[k] = 0;
 }
 
-void lock_unknowns(const Unknowns& at, bool fixed_positions, bool hold_shape, NearLampEquations& equations) {
+void lock_unknowns(const Unknowns& at, bool fixed_positions, bool hold_shape, bool hold_gloss,
+                   NearLampEquations& equations) {
   for (size_t i = 0; i < at.lamps.size(); ++i) {
     const Lamp& lamp = at.lamps[i];
     const Eigen::Index first = at.lamp_at(static_cast<Eigen::Index>(i));
@@ -42,8 +44,10 @@ void lock_unknowns(const Unknowns& at, bool fixed_positions, bool hold_shape, Ne
       if (!lamp.near || position || (k == 2 && at_infinity)) lock(equations, first + k);
     }
   }
-  for (Eigen::Index k = 0; k < Unknowns::kShared; ++k)
+  for (Eigen::Index k = 0; k < Unknowns::kAim + Unknowns::kShape; ++k)
     if (k < Unknowns::kAim ? fixed_positions : hold_shape) lock(equations, at.aim_at() + k);
+  for (Eigen::Index k = 0; k < Unknowns::kGloss; ++k)
+    if (hold_gloss || (at.gloss[k] <= 0 && equations.b[at.gloss_at() + k] < 0)) lock(equations, at.gloss_at() + k);
 }
 
 /// The step that solves the equations with their diagonal grown by the share `damping`. Strength has a free factor a
@@ -68,21 +72,25 @@ Lamp near_from_far(const Lamp& far, float inverse_distance) {
 }
 
 Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape,
-                               const NearLampOptions& options, SurfaceState& state) {
-  const NearLampProblem problem(images, shape, state, options.pixels);
-  Unknowns at{state.lamps, state.scene};
+                               const NearLampOptions& options, SurfaceState& state, Gloss& gloss) {
+  const std::vector<LampRegion> regions = sample_lamp_regions(images, shape, state, gloss, options.tolerance, options.pixels);
+  const Eigen::Vector3f middle = state.points.rowwise().mean();
+  Unknowns at{state.lamps, state.scene, gloss};
   double damping = 1e-4;
   for (int step = 0; step < options.steps; ++step) {
-    NearLampEquations equations = sum_of(problem.equations(at));
+    NearLampEquations equations = sum_of(near_lamp_equations(regions, at));
     const double variance = error_variance(equations);
-    equations += problem.prior(at, variance);
-    lock_unknowns(at, options.fixed_positions, shape == nullptr, equations);
-    const double before = problem.energy(at) + problem.prior(at, variance).energy;
+    equations += near_lamp_prior(at, middle, variance);
+    lock_unknowns(at, options.fixed_positions, shape == nullptr, !options.highlights, equations);
+    const auto energy = [&](const Unknowns& u) {
+      return near_lamp_energy(regions, u) + near_lamp_prior(u, middle, variance).energy;
+    };
+    const double before = energy(at);
     for (int attempt = 0; attempt < 6; ++attempt, damping *= 10) {
       const Eigen::VectorXd change = damped_step(equations, damping);
       if (!change.allFinite()) continue;
       const Unknowns candidate = at.moved(change, options.max_inverse_distance);
-      const double after = problem.energy(candidate) + problem.prior(candidate, variance).energy;
+      const double after = energy(candidate);
       if (!(after <= before)) continue;
       at = candidate;
       damping = std::max(damping * 0.1, 1e-8);
@@ -94,23 +102,24 @@ Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* sha
     for (int p = 0; p < images.pixels; ++p) change[p] = broad_changes(state, p).cast<double>().dot(at.shape);
   state.lamps = at.lamps;
   state.scene = at.scene;
+  gloss = at.gloss;
   return change;
 }
 
 std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, const BroadShape* shape,
-                                                   const NearLampOptions& options,
-                                                   const SurfaceState& state) {
-  const NearLampProblem problem(images, shape, state, options.pixels);
-  const Unknowns at{state.lamps, state.scene};
-  const std::vector<NearLampEquations> regions = problem.equations(at);
+                                                   const NearLampOptions& options, const SurfaceState& state,
+                                                   const Gloss& gloss) {
+  const Unknowns at{state.lamps, state.scene, gloss};
+  const std::vector<NearLampEquations> regions =
+      near_lamp_equations(sample_lamp_regions(images, shape, state, gloss, options.tolerance, options.pixels), at);
   NearLampEquations all = sum_of(regions);
-  all += problem.prior(at, error_variance(all));
+  all += near_lamp_prior(at, state.points.rowwise().mean(), error_variance(all));
   Eigen::MatrixXd steps(at.size(), static_cast<Eigen::Index>(regions.size()));
   for (size_t left_out = 0; left_out < regions.size(); ++left_out) {
     NearLampEquations rest = all;
     rest.A -= regions[left_out].A;
     rest.b -= regions[left_out].b;
-    lock_unknowns(at, options.fixed_positions, shape == nullptr, rest);
+    lock_unknowns(at, options.fixed_positions, shape == nullptr, !options.highlights, rest);
     steps.col(static_cast<Eigen::Index>(left_out)) = damped_step(rest, 1e-6);
   }
   steps.colwise() -= steps.rowwise().mean().eval();
