@@ -111,7 +111,7 @@ std::vector<LampUncertainty> LampEstimator::uncertainty(const RefineProblem& pro
 NearLampOptions LampEstimator::fit_options(int iteration) const {
   NearLampOptions fit;
   fit.tolerance = 1 + kFirstTolerance * std::max(0, kTight - iteration) / (kTight - kFirstNear);
-  fit.highlights = iteration >= kChoice;
+  fit.highlights = true;
   fit.max_inverse_distance = kMaxInverseDistance;
   fit.fixed_positions = options_.positions == LampPositions::fixed;
   return fit;

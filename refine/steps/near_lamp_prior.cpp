@@ -11,6 +11,8 @@ namespace {
 constexpr double kAmbientShare = 0.2;  // expected ambient light, share of a lamp's
 constexpr double kAimDeviation = 0.1;  // expected distance of the aim from the middle of the seen surface, metres
 constexpr double kGlossDeviation = 0.3;  // expected peak of the highlights, share of a white surface
+/// Samples whose errors agree, as those of shadows do: so many of the fit's count as one against what is expected.
+constexpr double kSamplesThatAgree = 50;
 constexpr double kFarInverse = 1 / 3.0;  // kappa_0 of log_lamp_power, 1/m
 constexpr double kLeastStrength = 1e-6;
 

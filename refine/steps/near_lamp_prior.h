@@ -6,12 +6,9 @@
 
 namespace rakelight {
 
-/// Samples whose errors agree, as those of highlights and shadows do: so many count as one against what is expected.
-constexpr double kSamplesThatAgree = 100;
-
 /// The lamps of a rig are LEDs of one kind: their power differs by this share (a natural logarithm) in the usual rig. Bins of
 /// one LED differ by 0.1; the rest allows for a lamp that is not aimed at the object, or of another kind.
-constexpr double kLogPowerDeviation = 0.5;
+constexpr double kLogPowerDeviation = 0.7;
 
 /// log of a near lamp's power up to a constant: strength / (kappa^2 + kappa_0^2), mean over channels. A lamp beyond 1 / kappa_0 =
 /// 3 m is taken as if it stood there, for nothing tells how far it is.

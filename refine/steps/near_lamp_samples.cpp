@@ -92,7 +92,7 @@ void weigh_by_residuals(const SurfaceState& state, const Gloss& gloss, double to
     for (size_t k = 0; k < regions.size(); ++k) {
       Eigen::ArrayX3d& w = regions[k].images[i].w;
       const Eigen::ArrayX3d cauchy = (1 + (all[k][i] / scale).square()).inverse();
-      w = (w > 0).select(tolerance > 1 ? cauchy : Eigen::ArrayX3d(cauchy.square()), 0.0);
+      w = (w > 0).select(cauchy.square(), 0.0);
     }
   }
 }

@@ -13,6 +13,9 @@
 namespace rakelight {
 namespace {
 
+/// Samples whose errors agree: those of the rough shape and albedo that the search has to do with reach far.
+constexpr float kSamplesThatAgree = 100;
+
 struct Place {
   Eigen::Vector3f direction;
   float inverse_distance = 0;
@@ -122,7 +125,7 @@ void try_places(const PlaceTable& table, const SampledImage& image, const Lamp& 
 /// kCorrelation agree.
 const Trial& best_of(const std::vector<Trial>& trials, const float* usual_log_power, size_t samples) {
   const auto score = [&](const Trial& trial) {
-    const float fit = static_cast<float>(samples) / static_cast<float>(kSamplesThatAgree) * std::log(trial.misfit + 1e-9f);
+    const float fit = static_cast<float>(samples) / kSamplesThatAgree * std::log(trial.misfit + 1e-9f);
     if (!usual_log_power) return fit;
     const float off = (trial.log_power - *usual_log_power) / static_cast<float>(kLogPowerDeviation);
     return fit + 0.5f * off * off;

@@ -15,6 +15,9 @@ namespace {
 
 using Unknowns = NearLampUnknowns;
 
+/// A step that takes less than this share of the energy is the last of its call: the next call sees a better surface.
+constexpr double kLeastGain = 1e-3;
+
 NearLampEquations sum_of(const std::vector<NearLampEquations>& parts) {
   NearLampEquations sum = parts.front();
   for (size_t k = 1; k < parts.size(); ++k) sum += parts[k];
@@ -77,7 +80,8 @@ Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* sha
   const Eigen::Vector3f middle = state.points.rowwise().mean();
   Unknowns at{state.lamps, state.scene, gloss};
   double damping = 1e-4;
-  for (int step = 0; step < options.steps; ++step) {
+  bool settled = false;
+  for (int step = 0; step < options.steps && !settled; ++step) {
     NearLampEquations equations = sum_of(near_lamp_equations(regions, at));
     const double variance = error_variance(equations);
     equations += near_lamp_prior(at, middle, variance);
@@ -94,6 +98,7 @@ Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* sha
       if (!(after <= before)) continue;
       at = candidate;
       damping = std::max(damping * 0.1, 1e-8);
+      settled = before - after < kLeastGain * before;
       break;
     }
   }
