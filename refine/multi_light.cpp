@@ -154,7 +154,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   result.message += "; " + lamps.explanation();
   result.lamp_uncertainty = lamps.uncertainty(problem, prior, state);
   result.uncertainty =
-      estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, images, state, *solver,
+      estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, images, state,
                            result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
   result.quality["far_over_near_residual"] = lamps.far_over_near();
   result.quality["image_noise"] = noise.image;

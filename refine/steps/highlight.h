@@ -14,7 +14,7 @@ namespace rakelight {
 constexpr int kHighlightLobes = 2;
 /// Exponents m_j: half as bright 17 and 8 degrees off the peak. Between and about them two lobes mix to what glossy paint,
 /// plastic and glaze show; sharper ones are left to the robust weights.
-constexpr std::array<float, kHighlightLobes> kLobeExponents{16, 64};
+constexpr std::array<int, kHighlightLobes> kLobeExponents{16, 64};
 
 /// Peak radiance of each lobe, share of what a facing surface of albedo 1 reflects of the same light.
 using Gloss = Eigen::Matrix<double, kHighlightLobes, 1>;

@@ -16,7 +16,7 @@ namespace {
 using Unknowns = NearLampUnknowns;
 
 /// A step that takes less than this share of the energy is the last of its call: the next call sees a better surface.
-constexpr double kLeastGain = 1e-3;
+constexpr double kLeastGain = 1e-4;
 
 NearLampEquations sum_of(const std::vector<NearLampEquations>& parts) {
   NearLampEquations sum = parts.front();

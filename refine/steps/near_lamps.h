@@ -26,7 +26,7 @@ namespace rakelight {
 
 struct NearLampOptions {
   int steps = 3;                    ///< Levenberg-Marquardt steps a call
-  int pixels = 2000;                ///< about so many pixels are used, evenly spread
+  int pixels = 4000;                ///< about so many pixels are used, evenly spread
   double tolerance = 1;             ///< of a sample's residual, robust deviations (near_lamp_samples.h)
   bool highlights = true;           ///< fit the gloss; else it stays as it is
   float max_inverse_distance = 10;  ///< 1/m: no lamp is taken to stand nearer than this to the centre
