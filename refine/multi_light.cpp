@@ -152,7 +152,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   result.message += "; " + lamps.explanation();
-  result.lamp_uncertainty = lamps.uncertainty(problem, prior, state);
+  result.lamp_uncertainty = lamps.positions(problem, prior, state);
   result.uncertainty =
       estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, images, state,
                            result.termination == Termination::diverged ? 0 : options.uncertainty_samples);

@@ -23,8 +23,7 @@ constexpr double kClearlyBetter = 1.02;        // far residual / near residual a
 /// Light that turns less than this between the object's centre and its rim (radians) is parallel for every purpose, while
 /// the near model's further unknowns would fit what the model lacks.
 constexpr double kLeastTurn = 0.03;
-constexpr int kTight = 12;   // outer iteration from which on shadows are all but forgotten; before, shape and lamps may be what errs
-constexpr double kFirstTolerance = 3;  // of the first near fit, besides 1
+constexpr int kLastRounds = 8;    // of the last fit: weights and highlights taken anew
 constexpr int kSearchRounds = 4;  // of lamps and albedo in turn
 constexpr float kMaxInverseDistance = 10.0f;
 constexpr double kSettledTurn = 2e-4;  // radians an iteration
@@ -86,7 +85,8 @@ void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior
   }
   const std::vector<Lamp> before = state.lamps;
   const BroadShape shape{problem.grid, prior};
-  state.zeta += fit_near_lamps(images, &shape, fit_options(iteration), state, gloss_);
+  Gloss none = Gloss::Zero();
+  state.zeta += fit_near_lamps(images, &shape, fit_options(), state, none);
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   state.albedo =
@@ -95,11 +95,19 @@ void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior
   if (options_.model == LampModel::automatic && iteration == kChoice) choose(images, state);
 }
 
-std::vector<LampUncertainty> LampEstimator::uncertainty(const RefineProblem& problem, const DepthPrior& prior,
-                                                        const SurfaceState& state) const {
+std::vector<LampUncertainty> LampEstimator::positions(const RefineProblem& problem, const DepthPrior& prior,
+                                                      SurfaceState state) const {
   if (!near_) return {};
   const BroadShape shape{problem.grid, prior};
-  std::vector<LampUncertainty> result = near_lamp_uncertainty(problem.images, &shape, fit_options(kTight), state, gloss_);
+  NearLampOptions options = fit_options();
+  options.highlights = true;
+  Gloss gloss = Gloss::Zero();
+  for (int round = 0; round < kLastRounds; ++round) {
+    state.zeta += fit_near_lamps(problem.images, &shape, options, state, gloss);
+    state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
+    state.points = surface_points(problem.grid, state.zeta);
+  }
+  std::vector<LampUncertainty> result = near_lamp_uncertainty(problem.images, &shape, options, state, gloss);
   for (LampUncertainty& lamp : result) {
     lamp.position_covariance *= kSharedErrors * kSharedErrors;
     lamp.distance_deviation *= kSharedErrors;
@@ -108,10 +116,8 @@ std::vector<LampUncertainty> LampEstimator::uncertainty(const RefineProblem& pro
   return result;
 }
 
-NearLampOptions LampEstimator::fit_options(int iteration) const {
+NearLampOptions LampEstimator::fit_options() const {
   NearLampOptions fit;
-  fit.tolerance = 1 + kFirstTolerance * std::max(0, kTight - iteration) / (kTight - kFirstNear);
-  fit.highlights = true;
   fit.max_inverse_distance = kMaxInverseDistance;
   fit.fixed_positions = options_.positions == LampPositions::fixed;
   return fit;

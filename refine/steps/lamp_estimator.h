@@ -28,9 +28,11 @@ class LampEstimator {
   /// Whether the last update moved the lamps too little to matter.
   bool settled() const { return settled_; }
 
-  /// Of each lamp's position, after the last update; empty where all lamps are far.
-  std::vector<LampUncertainty> uncertainty(const RefineProblem& problem, const DepthPrior& prior,
-                                           const SurfaceState& state) const;
+  /// Each lamp's position, after the last update; empty where all lamps are far. A last fit on the finished surface knows
+  /// highlights and forgets shadows. Lamps of the updates do not: the depth step sees highlights as shape, and lamps that
+  /// lean with them keep that error small.
+  std::vector<LampUncertainty> positions(const RefineProblem& problem, const DepthPrior& prior,
+                                         SurfaceState state) const;
 
   /// One sentence: the model used, and why.
   std::string explanation() const { return explanation_; }
@@ -39,13 +41,12 @@ class LampEstimator {
   double far_over_near() const { return far_over_near_; }
 
  private:
-  NearLampOptions fit_options(int iteration) const;
+  NearLampOptions fit_options() const;
   void start_near(const Observations& images, SurfaceState& state);
   void choose(const Observations& images, SurfaceState& state);
 
   LampOptions options_;
   SurfaceState far_state_;  ///< what the far lamps had reached when near ones took over
-  Gloss gloss_ = Gloss::Zero();
   bool near_ = false;
   bool settled_ = true;
   double far_over_near_ = 0;

@@ -75,8 +75,22 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void weigh_by_residuals(const SurfaceState& state, const Gloss& gloss, double tolerance,
-                        std::vector<LampRegion>& regions) {
+}  // namespace
+
+std::vector<LampRegion> sample_lamp_regions(const Observations& images, const BroadShape* shape,
+                                            const SurfaceState& state, int pixels) {
+  std::vector<BroadPixel> chosen;
+  const int stride = std::max(1, images.pixels / pixels);
+  for (int p = 0; p < images.pixels; p += stride) chosen.push_back(broad_pixel(shape, state, p));
+  std::vector<LampRegion> regions = split_into_regions(std::move(chosen));
+  cv::parallel_for_(cv::Range(0, static_cast<int>(regions.size())), [&](const cv::Range& range) {
+    for (int k = range.start; k < range.end; ++k)
+      look_at_images(images, state, regions[static_cast<size_t>(k)]);
+  });
+  return regions;
+}
+
+void forget_shadows(const SurfaceState& state, const Gloss& gloss, std::vector<LampRegion>& regions) {
   std::vector<std::vector<Eigen::ArrayX3d>> all(regions.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(regions.size())), [&](const cv::Range& range) {
     for (auto k = static_cast<size_t>(range.start); k < static_cast<size_t>(range.end); ++k)
@@ -88,30 +102,12 @@ void weigh_by_residuals(const SurfaceState& state, const Gloss& gloss, double to
       for (Eigen::Index j = 0; j < all[k][i].size(); ++j)
         if (regions[k].images[i].w(j) > 0) sizes.push_back(std::abs(all[k][i](j)));
     if (sizes.empty()) continue;
-    const double scale = tolerance * std::max(kLeastScale, 1.4826 * median(std::move(sizes)));
+    const double scale = std::max(kLeastScale, 1.4826 * median(std::move(sizes)));
     for (size_t k = 0; k < regions.size(); ++k) {
       Eigen::ArrayX3d& w = regions[k].images[i].w;
-      const Eigen::ArrayX3d cauchy = (1 + (all[k][i] / scale).square()).inverse();
-      w = (w > 0).select(cauchy.square(), 0.0);
+      w = (w > 0).select((1 + (all[k][i] / scale).square()).square().inverse(), 0.0);
     }
   }
-}
-
-}  // namespace
-
-std::vector<LampRegion> sample_lamp_regions(const Observations& images, const BroadShape* shape,
-                                            const SurfaceState& state, const Gloss& gloss, double tolerance,
-                                            int pixels) {
-  std::vector<BroadPixel> chosen;
-  const int stride = std::max(1, images.pixels / pixels);
-  for (int p = 0; p < images.pixels; p += stride) chosen.push_back(broad_pixel(shape, state, p));
-  std::vector<LampRegion> regions = split_into_regions(std::move(chosen));
-  cv::parallel_for_(cv::Range(0, static_cast<int>(regions.size())), [&](const cv::Range& range) {
-    for (int k = range.start; k < range.end; ++k)
-      look_at_images(images, state, regions[static_cast<size_t>(k)]);
-  });
-  weigh_by_residuals(state, gloss, tolerance, regions);
-  return regions;
 }
 
 }  // namespace rakelight

@@ -27,11 +27,14 @@ struct LampRegion {
 constexpr int kLampRegions = 12;
 
 /// About `pixels` pixels of the surface in kLampRegions regions of about equal size: bands of rows, each cut into columns.
-/// Samples are trusted by how far they miss the fit's start, with weights (1 + (r / scale)^2)^-2 that all but forget
-/// shadows: a share of the many samples in shadow would turn the lamps. @param shape nullptr: the surface is held
-/// @param tolerance scale of the weights, in robust deviations of the residuals
+/// Their weights are the state's.
+/// @param shape nullptr: the surface is held
 std::vector<LampRegion> sample_lamp_regions(const Observations& images, const BroadShape* shape,
-                                            const SurfaceState& state, const Gloss& gloss, double tolerance,
-                                            int pixels);
+                                            const SurfaceState& state, int pixels);
+
+/// Weighs all usable samples anew by how far the state, its albedo fitted, and the gloss miss them: (1 + (r / scale)^2)^-2,
+/// scale a robust deviation of the image's residuals. That all but forgets shadows, while a share of the many samples in
+/// shadow would turn the lamps; a start that is far off it would hold where it is.
+void forget_shadows(const SurfaceState& state, const Gloss& gloss, std::vector<LampRegion>& regions);
 
 }  // namespace rakelight

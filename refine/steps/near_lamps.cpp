@@ -62,6 +62,14 @@ Eigen::VectorXd damped_step(const NearLampEquations& equations, double damping) 
   return A.ldlt().solve(equations.b);
 }
 
+std::vector<LampRegion> regions_for(const Observations& images, const BroadShape* shape,
+                                    const NearLampOptions& options, const SurfaceState& state,
+                                    const Gloss& gloss) {
+  std::vector<LampRegion> regions = sample_lamp_regions(images, shape, state, options.pixels);
+  if (options.highlights) forget_shadows(state, gloss, regions);
+  return regions;
+}
+
 }  // namespace
 
 Lamp near_from_far(const Lamp& far, float inverse_distance) {
@@ -76,7 +84,7 @@ Lamp near_from_far(const Lamp& far, float inverse_distance) {
 
 Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape,
                                const NearLampOptions& options, SurfaceState& state, Gloss& gloss) {
-  const std::vector<LampRegion> regions = sample_lamp_regions(images, shape, state, gloss, options.tolerance, options.pixels);
+  const std::vector<LampRegion> regions = regions_for(images, shape, options, state, gloss);
   const Eigen::Vector3f middle = state.points.rowwise().mean();
   Unknowns at{state.lamps, state.scene, gloss};
   double damping = 1e-4;
@@ -116,7 +124,7 @@ std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, c
                                                    const Gloss& gloss) {
   const Unknowns at{state.lamps, state.scene, gloss};
   const std::vector<NearLampEquations> regions =
-      near_lamp_equations(sample_lamp_regions(images, shape, state, gloss, options.tolerance, options.pixels), at);
+      near_lamp_equations(regions_for(images, shape, options, state, gloss), at);
   NearLampEquations all = sum_of(regions);
   all += near_lamp_prior(at, state.points.rowwise().mean(), error_variance(all));
   Eigen::MatrixXd steps(at.size(), static_cast<Eigen::Index>(regions.size()));
@@ -140,6 +148,7 @@ std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, c
     const Eigen::MatrixXd own = steps.middleRows<3>(k);
     const Eigen::Matrix3d spread = (count - 1) / count * own * own.transpose();
     LampUncertainty u;
+    u.position = lamp_position(lamp, state.scene);
     u.position_covariance = J * spread * J.transpose();
     u.distance_deviation = std::sqrt(spread(2, 2)) / (kappa * kappa);
     u.direction_deviation = std::sqrt(spread(0, 0) + spread(1, 1));

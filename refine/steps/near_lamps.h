@@ -27,14 +27,14 @@ namespace rakelight {
 struct NearLampOptions {
   int steps = 3;                    ///< Levenberg-Marquardt steps a call
   int pixels = 4000;                ///< about so many pixels are used, evenly spread
-  double tolerance = 1;             ///< of a sample's residual, robust deviations (near_lamp_samples.h)
-  bool highlights = true;           ///< fit the gloss; else it stays as it is
+  bool highlights = false;          ///< fit the gloss too, and forget shadows (near_lamp_samples.h)
   float max_inverse_distance = 10;  ///< 1/m: no lamp is taken to stand nearer than this to the centre
   bool fixed_positions = false;     ///< fit strength and ambient share only
 };
 
 /// What the fit knows of a lamp's position.
 struct LampUncertainty {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();             ///< camera coordinates, metres
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< m^2; meaningless for kappa near 0
   double distance_deviation = 0;                                  ///< m
   double direction_deviation = 0;                                 ///< rad
