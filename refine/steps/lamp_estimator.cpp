@@ -8,6 +8,7 @@
 
 #include "refine/steps/albedo.h"
 #include "refine/steps/lighting.h"
+#include "refine/steps/matt_images.h"
 #include "refine/steps/near_lamp_search.h"
 #include "refine/steps/robust_weights.h"
 #include "stack/errors.h"
@@ -23,6 +24,7 @@ constexpr double kClearlyBetter = 1.02;        // far residual / near residual a
 /// Light that turns less than this between the object's centre and its rim (radians) is parallel for every purpose, while
 /// the near model's further unknowns would fit what the model lacks.
 constexpr double kLeastTurn = 0.03;
+constexpr int kHighlightsEvery = 4;  // outer iterations
 constexpr int kLastRounds = 8;    // of the last fit: weights and highlights taken anew
 constexpr int kSearchRounds = 4;  // of lamps and albedo in turn
 constexpr float kMaxInverseDistance = 10.0f;
@@ -85,14 +87,25 @@ void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior
   }
   const std::vector<Lamp> before = state.lamps;
   const BroadShape shape{problem.grid, prior};
-  Gloss none = Gloss::Zero();
-  state.zeta += fit_near_lamps(images, &shape, fit_options(), state, none);
+  NearLampOptions options = fit_options();
+  options.highlights = iteration >= kChoice;
+  state.zeta += fit_near_lamps(problem.images, &shape, options, state, gloss_);
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   state.albedo =
       estimate_albedo(images, state);  // the fit eliminated it: the old one knows nothing of these lamps
   settled_ = turn_at_rim(before, state.lamps, object_radius(state)) < kSettledTurn;
   if (options_.model == LampModel::automatic && iteration == kChoice) choose(images, state);
+  if (iteration >= kChoice && iteration % kHighlightsEvery == 0) renew_matt_images(images, state);
+}
+
+void LampEstimator::renew_matt_images(const Observations& seen, const SurfaceState& state) {
+  if (!near_ || gloss_.isZero(0)) {
+    matt_.reset();
+    return;
+  }
+  if (!matt_) matt_ = seen;
+  take_off_highlights(seen, state, gloss_, *matt_);
 }
 
 std::vector<LampUncertainty> LampEstimator::positions(const RefineProblem& problem, const DepthPrior& prior,
@@ -101,7 +114,7 @@ std::vector<LampUncertainty> LampEstimator::positions(const RefineProblem& probl
   const BroadShape shape{problem.grid, prior};
   NearLampOptions options = fit_options();
   options.highlights = true;
-  Gloss gloss = Gloss::Zero();
+  Gloss gloss = gloss_;
   for (int round = 0; round < kLastRounds; ++round) {
     state.zeta += fit_near_lamps(problem.images, &shape, options, state, gloss);
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
