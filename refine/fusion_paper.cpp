@@ -41,7 +41,7 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
   const double k = problem.grid.camera.fx / z0.mean();
   Eigen::VectorXd z = z0;
 
-  state.normals = orthographic_normals(problem.corners, z, k);
+  state.normals = orthographic_normals(problem.grid, problem.corners, z, k);
   state.lamps = estimate_far_lamps(image, state);  // Eq. (9)
   const Lamp lamp = state.lamps.front();
   Eigen::VectorXd S(z.size());
@@ -64,14 +64,14 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
   for (int t = 1; solved && t <= options.max_iterations; ++t) {
     IterationReport report;
     report.index = t;
-    GradientProblem depth{problem.corners, shading_rows(problem.corners, lamp, rho, I - beta, z, k),
+    GradientProblem depth{problem.grid, problem.corners, shading_rows(problem.grid, problem.corners, lamp, rho, I - beta, z, k),
                           options.depth.sensor_weight, z0, smoothness};
     report.energy_before_depth = gradient_energy(depth, z);
     if (t == 1) best = report.energy_before_depth;
     Eigen::VectorXd next = z;
     solved = solve_gradient_rows(depth, solver, next) && next.minCoeff() > 0;
     if (!solved) break;
-    depth.rows = shading_rows(problem.corners, lamp, rho, I - beta, next, k);
+    depth.rows = shading_rows(problem.grid, problem.corners, lamp, rho, I - beta, next, k);
     report.energy = gradient_energy(depth, next);
     report.depth_change_mm =
         1e3 * model.unit_m * std::sqrt((next - z).squaredNorm() / static_cast<double>(z.size()));

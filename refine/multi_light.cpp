@@ -99,8 +99,8 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   LampEstimator lamps(options.lamps);
   DepthPrior prior = problem.prior;
   MeasuredNoise noise;
-  std::vector<PhotometricTensor> tensors;
-  std::vector<std::array<float, 4>> weights;
+  PhotometricTensors tensors;
+  CornerWeights weights;
 
   for (int t = 1; t <= options.max_iterations; ++t) {
     IterationReport report;

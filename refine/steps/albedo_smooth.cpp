@@ -82,13 +82,13 @@ bool AlbedoSmoother::solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd
   DepthSystem system(count);
   system.cell_weight = Eigen::VectorXd::Zero(count);
   Eigen::Matrix3Xd rest = weighted_target - log_albedo * weight.asDiagonal();
-  Eigen::VectorXd::Map(system.diagonal.data(), count) = weight;
-  const auto couple = [&](int p, int q, double v, double& entry) {
+  Eigen::VectorXf::Map(system.diagonal.data(), count) = weight.cast<float>();
+  const auto couple = [&](int p, int q, double v, float& entry) {
     if (q < 0) return;
     v *= options_.smoothness;
-    system.diagonal[static_cast<size_t>(p)] += v;
-    system.diagonal[static_cast<size_t>(q)] += v;
-    entry = -v;
+    system.diagonal[static_cast<size_t>(p)] += static_cast<float>(v);
+    system.diagonal[static_cast<size_t>(q)] += static_cast<float>(v);
+    entry = -static_cast<float>(v);
     const Eigen::Vector3d flow = v * (log_albedo.col(q) - log_albedo.col(p));
     rest.col(p) += flow;
     rest.col(q) -= flow;

@@ -65,14 +65,15 @@ Eigen::MatrixXd right_hand_sides(const DepthProblem& depth, const Eigen::VectorX
   for (int p = 0; p < depth.grid.size(); ++p) {
     const auto at = static_cast<size_t>(p);
     const NormalFrame frame = normal_frame(depth.grid, p);
-    for (size_t k = 0; k < 4 && depth.corners.corners[at][k].x_neighbor >= 0; ++k) {
-      const Corner& corner = depth.corners.corners[at][k];
+    for (int k = 0; k < kCorners; ++k) {
+      if (!depth.corners.has(p, k)) continue;
+      const Corner corner = corner_at(depth.grid, p, k);
       const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
       const Eigen::Vector3f raw = frame.raw(g.x(), g.y()), n = raw.normalized();
       const Eigen::Matrix<float, 3, 2> J = frame.jacobian() / raw.norm();
       const Eigen::Matrix<float, 3, 2> dn = J - n * (n.transpose() * J);
       const Eigen::Matrix<double, 2, kDrawsAtATime> pull =
-          (depth.corner_weight[at][k] * dn.transpose() * pulls[at]).cast<double>();
+          (depth.corner_weight[at][static_cast<size_t>(k)] * dn.transpose() * pulls[at]).cast<double>();
       const Eigen::Matrix<double, 1, kDrawsAtATime> x = static_cast<double>(corner.x_sign) * pull.row(0),
                                                     y = static_cast<double>(corner.y_sign) * pull.row(1);
       rhs.row(corner.x_neighbor) += x;

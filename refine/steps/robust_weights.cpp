@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "refine/lamp_shading.h"
+#include "refine/kernels/image_kernels.h"
+#include "refine/tiles.h"
 
 namespace rakelight {
 namespace {
@@ -55,30 +56,14 @@ double median_radiance(const Observations& images) {
 }
 
 std::vector<float> cauchy_weights(const Observations& images, const SurfaceState& state, double scale) {
-  std::vector<float> weight(images.usable.size() / 3);
-  const float inverse = static_cast<float>(1.0 / (scale * scale));
-  for_each_block(images.pixels, [&](int begin, int end) {
-    const int count = end - begin;
-    ShadingBlock model;
-    std::array<float, kPixelBlock> squares, channels;
-    for (int i = 0; i < images.images; ++i) {
-      shade(state.lamps[static_cast<size_t>(i)], state, begin, end, model);
-      std::fill_n(squares.begin(), count, 0.0f);
-      std::fill_n(channels.begin(), count, 0.0f);
-      for (int c = 0; c < 3; ++c) {
-        const float* S = model.S[static_cast<size_t>(c)].data();
-        const float* I = images.channel(i, c) + begin;
-        const unsigned char* usable = images.usable_in(i, c) + begin;
-        for (size_t k = 0; k < static_cast<size_t>(count); ++k) {
-          const float r = state.albedo(c, begin + static_cast<int>(k)) * S[k] - I[k];
-          const float u = static_cast<float>(usable[k]);
-          squares[k] += u * r * r;
-          channels[k] += u;
-        }
-      }
-      float* w = weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels) + begin;
-      for (size_t k = 0; k < static_cast<size_t>(count); ++k)
-        w[k] = channels[k] > 0 ? channels[k] / (channels[k] + squares[k] * inverse) : 0.0f;
+  std::vector<float> weight(static_cast<size_t>(images.images) * static_cast<size_t>(images.pixels));
+  const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
+  for_each_tile(images, state, [&](Tile& tile) {
+    kernels::TileRow row;
+    for (size_t i = 0; i < lamps.size(); ++i) {
+      kernels::cauchy_weight(tile.surface(), lamps[i], tile.image(static_cast<int>(i)), static_cast<float>(scale), row);
+      std::copy_n(row.at, tile.count(),
+                  weight.data() + i * static_cast<size_t>(images.pixels) + static_cast<size_t>(tile.begin()));
     }
   });
   return weight;

@@ -33,7 +33,7 @@ struct NoisyPlane {
     std::normal_distribution<double> white(0, 1);
     for (float& radiance : images.radiance) radiance += static_cast<float>(kImageNoise * white(random));
     prior.cells = make_cells(grid, scale);
-    const auto cells = static_cast<Eigen::Index>(prior.cells.pixels_of.size());
+    const auto cells = prior.cells.size();
     prior.cell_weight = Eigen::VectorXd::Ones(cells);
     prior.cell_target = Eigen::VectorXd::NullaryExpr(cells, [&] { return kDepthNoise * white(random); });
   }

@@ -66,8 +66,8 @@ TEST(Uncertainty, ScaledResidualsPullOnTheNormalsAsChangedImagesDo) {
 struct SensorAlone {
   MissedSphere missed;
   CornerList corners = make_corners(missed.sphere.grid, Stencil::symmetric);
-  std::vector<PhotometricTensor> tensors = std::vector<PhotometricTensor>(missed.sphere.grid.pixels.size());
-  std::vector<std::array<float, 4>> weights{tensors.size(), std::array<float, 4>{0.25f, 0.25f, 0.25f, 0.25f}};
+  PhotometricTensors tensors = PhotometricTensors(missed.sphere.grid.pixels.size());
+  CornerWeights weights = CornerWeights(tensors.size());
   DepthPrior prior;
 
   explicit SensorAlone(double deviation) {
