@@ -49,7 +49,7 @@ class SensorDraws {
         size_((depth.grid.index.cols + scale - 1) / scale, (depth.grid.index.rows + scale - 1) / scale),
         pull_(depth.prior.cell_weight.cwiseProduct(depth.prior.cell_target - cell_means(cells_, zeta))) {
     for (Eigen::Index cell = 0; cell < pull_.size(); ++cell)
-      pull_[cell] /= static_cast<double>(cells_.pixels_of[static_cast<size_t>(cell)].size());
+      pull_[cell] /= static_cast<double>(cells_.of(static_cast<int>(cell)).size());
   }
 
   Eigen::VectorXd change_of_right_hand_side(Random& random) const {
