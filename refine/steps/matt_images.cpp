@@ -6,7 +6,8 @@
 
 namespace rakelight {
 
-void take_off_highlights(const Observations& seen, const SurfaceState& state, const Gloss& gloss, Observations& matt) {
+void take_off_highlights(const Observations& seen, const SurfaceState& state, const Gloss& gloss,
+                         Observations& matt) {
   const auto pixels = static_cast<size_t>(seen.pixels);
   for_each_block(seen.pixels, [&](int begin, int end) {
     for (int i = 0; i < seen.images; ++i) {

@@ -66,8 +66,8 @@ struct ChannelEquations {
         q(Eigen::MatrixXd::Zero(pixels, A.rows())) {}
 
   /// w weighs a sample, r = I - rho S - H, J = d (rho S + H)
-  void add_image(Eigen::Index i, const Eigen::ArrayXd& w, const Eigen::ArrayXd& r, const Eigen::ArrayXd& q_factor,
-                 const SampleDerivatives& J) {
+  void add_image(Eigen::Index i, const Eigen::ArrayXd& w, const Eigen::ArrayXd& r,
+                 const Eigen::ArrayXd& q_factor, const SampleDerivatives& J) {
     const SampleDerivatives wJ = w.matrix().asDiagonal() * J;
     const Eigen::Matrix<double, kSampleUnknowns, kSampleUnknowns> JJ = wJ.transpose() * J;
     const Eigen::Matrix<double, kSampleUnknowns, 1> Jr = wJ.transpose() * r.matrix();

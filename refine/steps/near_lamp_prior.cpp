@@ -9,7 +9,8 @@ namespace rakelight {
 namespace {
 
 constexpr double kAmbientShare = 0.2;  // expected ambient light, share of a lamp's
-constexpr double kAimDeviation = 0.1;  // expected distance of the aim from the middle of the seen surface, metres
+constexpr double kAimDeviation =
+    0.1;  // expected distance of the aim from the middle of the seen surface, metres
 constexpr double kGlossDeviation = 0.3;  // expected peak of the highlights, share of a white surface
 /// Samples whose errors agree, as those of shadows do: so many of the fit's count as one against what is expected.
 constexpr double kSamplesThatAgree = 50;
@@ -37,11 +38,10 @@ double mean_log_power(const std::vector<Lamp>& lamps) {
 
 }  // namespace
 
-double log_lamp_power(const Lamp& lamp) {
-  return std::log(mean_strength(lamp) / far_inverse_squared(lamp));
-}
+double log_lamp_power(const Lamp& lamp) { return std::log(mean_strength(lamp) / far_inverse_squared(lamp)); }
 
-NearLampEquations near_lamp_prior(const NearLampUnknowns& at, const Eigen::Vector3f& middle, double variance) {
+NearLampEquations near_lamp_prior(const NearLampUnknowns& at, const Eigen::Vector3f& middle,
+                                  double variance) {
   NearLampEquations result(at.size());
   const auto add = [&](Eigen::Index k, double value, double deviation) {
     const double weight = kSamplesThatAgree * variance / (deviation * deviation + 1e-12);

@@ -47,9 +47,11 @@ void look_at_images(const Observations& images, const SurfaceState& state, LampR
 }
 
 /// What the state and its gloss leave of each image, a row a pixel, a column a channel.
-std::vector<Eigen::ArrayX3d> residuals(const SurfaceState& state, const Gloss& gloss, const LampRegion& region) {
+std::vector<Eigen::ArrayX3d> residuals(const SurfaceState& state, const Gloss& gloss,
+                                       const LampRegion& region) {
   std::vector<Eigen::ArrayX3d> result;
-  Eigen::ArrayX3d SS = Eigen::ArrayX3d::Constant(static_cast<Eigen::Index>(region.pixels.size()), 3, 1e-12), SI = 0 * SS;
+  Eigen::ArrayX3d SS = Eigen::ArrayX3d::Constant(static_cast<Eigen::Index>(region.pixels.size()), 3, 1e-12),
+                  SI = 0 * SS;
   std::vector<Eigen::ArrayX3d> shadings;
   for (size_t i = 0; i < region.images.size(); ++i) {
     const RegionImage& image = region.images[i];
@@ -57,9 +59,11 @@ std::vector<Eigen::ArrayX3d> residuals(const SurfaceState& state, const Gloss& g
     Eigen::ArrayX3d S(image.I.rows(), 3);
     for (Eigen::Index k = 0; k < S.rows(); ++k) {
       const BroadPixel& pixel = region.pixels[static_cast<size_t>(k)];
-      S.row(k) = shading(light_at(lamp, pixel.point, pixel.normal, state.scene), pixel.normal, true).cast<double>();
+      S.row(k) =
+          shading(light_at(lamp, pixel.point, pixel.normal, state.scene), pixel.normal, true).cast<double>();
     }
-    const Eigen::ArrayX3d I = image.I - (image.lobes * gloss * lamp.strength.cast<double>().transpose()).array();
+    const Eigen::ArrayX3d I =
+        image.I - (image.lobes * gloss * lamp.strength.cast<double>().transpose()).array();
     SS += image.w * S.square();
     SI += image.w * S * I;
     shadings.push_back(std::move(S));

@@ -14,9 +14,10 @@ namespace rakelight {
 
 /// An image at a region's pixels.
 struct RegionImage {
-  Eigen::ArrayX3d I;                                   ///< radiance, a row a pixel
-  Eigen::ArrayX3d w;                                   ///< trust in it, 0 to 1
-  Eigen::Matrix<double, Eigen::Dynamic, kHighlightLobes> lobes;  ///< highlights of its lamp where it stood when sampled
+  Eigen::ArrayX3d I;  ///< radiance, a row a pixel
+  Eigen::ArrayX3d w;  ///< trust in it, 0 to 1
+  Eigen::Matrix<double, Eigen::Dynamic, kHighlightLobes>
+      lobes;  ///< highlights of its lamp where it stood when sampled
 };
 
 struct LampRegion {

@@ -70,7 +70,8 @@ struct PlaceTable {
 struct SampledImage {
   Eigen::ArrayX3f I, rho;
 
-  SampledImage(const Observations& images, const SurfaceState& state, int image, const std::vector<int>& pixels)
+  SampledImage(const Observations& images, const SurfaceState& state, int image,
+               const std::vector<int>& pixels)
       : I(pixels.size(), 3), rho(pixels.size(), 3) {
     for (size_t j = 0; j < pixels.size(); ++j) {
       const Eigen::Array3f usable = images.usable_channels(image, pixels[j]);
@@ -97,7 +98,8 @@ struct Trial {
   float log_power = 0;  ///< of refine/steps/near_lamp_prior.h
 };
 
-void try_places(const PlaceTable& table, const SampledImage& image, const Lamp& lamp, std::vector<Trial>& trials) {
+void try_places(const PlaceTable& table, const SampledImage& image, const Lamp& lamp,
+                std::vector<Trial>& trials) {
   const auto count = static_cast<Eigen::Index>(table.places.size());
   const Eigen::MatrixX3f rho2 = image.rho.square(), rhoI = image.rho * image.I;
   const Eigen::MatrixX3f v = table.value.transpose() * rho2, vI = table.value.transpose() * rhoI;

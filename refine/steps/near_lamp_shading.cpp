@@ -29,9 +29,8 @@ Eigen::ArrayX3d region_shading(const Lamp& lamp, const std::vector<MovedPoint>& 
     const MovedPoint& here = points[k];
     Eigen::Vector3f value = lamp.phi;
     if (lamp.near)
-      value +=
-          lamp.strength *
-          incidence_of(lamp, kNoTangents, here.offset, here.normal, lobe_exponent, false).value;
+      value += lamp.strength *
+               incidence_of(lamp, kNoTangents, here.offset, here.normal, lobe_exponent, false).value;
     else
       value += (lamp.l * here.normal).cwiseMax(0.0f);
     S.row(static_cast<Eigen::Index>(k)) = value.cast<double>().transpose();

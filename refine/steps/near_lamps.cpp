@@ -50,7 +50,8 @@ void lock_unknowns(const Unknowns& at, bool fixed_positions, bool hold_shape, bo
   for (Eigen::Index k = 0; k < Unknowns::kAim + Unknowns::kShape; ++k)
     if (k < Unknowns::kAim ? fixed_positions : hold_shape) lock(equations, at.aim_at() + k);
   for (Eigen::Index k = 0; k < Unknowns::kGloss; ++k)
-    if (hold_gloss || (at.gloss[k] <= 0 && equations.b[at.gloss_at() + k] < 0)) lock(equations, at.gloss_at() + k);
+    if (hold_gloss || (at.gloss[k] <= 0 && equations.b[at.gloss_at() + k] < 0))
+      lock(equations, at.gloss_at() + k);
 }
 
 /// The step that solves the equations with their diagonal grown by the share `damping`. Strength has a free factor a

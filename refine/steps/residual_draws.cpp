@@ -17,8 +17,8 @@ struct PixelSums {
   DrawnPulls pull() const { return q + by_rho * SS.cwiseMax(1e-8f).cwiseInverse().asDiagonal() * Sr; }
 };
 
-void add_image(const Observations& images, const SurfaceState& state, int i, int p, const DrawFactors& factors,
-               PixelSums& sums) {
+void add_image(const Observations& images, const SurfaceState& state, int i, int p,
+               const DrawFactors& factors, PixelSums& sums) {
   const auto at = static_cast<size_t>(i) * static_cast<size_t>(images.pixels) + static_cast<size_t>(p);
   const float w = state.weight[at];
   if (w == 0.0f) return;
@@ -52,7 +52,8 @@ std::vector<DrawnPulls> pulls_of_scaled_residuals(const Observations& images, co
       for (int i = 0; i < images.images; ++i)
         for (int p = begin; p < end; ++p)
           add_image(images, state, i, p, factors, sums[static_cast<size_t>(p - begin)]);
-      for (int p = begin; p < end; ++p) pulls[static_cast<size_t>(p)] = sums[static_cast<size_t>(p - begin)].pull();
+      for (int p = begin; p < end; ++p)
+        pulls[static_cast<size_t>(p)] = sums[static_cast<size_t>(p - begin)].pull();
     }
   });
   return pulls;
