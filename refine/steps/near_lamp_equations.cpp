@@ -4,6 +4,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "refine/steps/near_lamp_channel.h"
 #include "refine/steps/near_lamp_shading.h"
 
 namespace rakelight {
@@ -43,55 +44,6 @@ double region_energy(const NearLampUnknowns& at, const LampRegion& region) {
   return sum;
 }
 
-/// Numbers of the unknowns of channel c: 5 of each image, then the shared ones.
-std::vector<Eigen::Index> channel_unknowns(const NearLampUnknowns& at, int c) {
-  std::vector<Eigen::Index> numbers;
-  for (size_t i = 0; i < at.lamps.size(); ++i) {
-    const Eigen::Index k = at.lamp_at(static_cast<Eigen::Index>(i));
-    numbers.insert(numbers.end(), {k, k + 1, k + 2, k + 3 + c, k + 6 + c});
-  }
-  for (int k = 0; k < kShared; ++k) numbers.push_back(at.aim_at() + k);
-  return numbers;
-}
-
-/// Equations of one channel, unknowns in the order of channel_unknowns.
-struct ChannelEquations {
-  Eigen::MatrixXd A;  ///< lower half
-  Eigen::VectorXd b;
-  Eigen::MatrixXd q;  ///< [pixel, unknown] sum_i w S J / sqrt(sum_i w S^2): what the albedo takes away is q'q
-
-  ChannelEquations(Eigen::Index pixels, Eigen::Index images)
-      : A(Eigen::MatrixXd::Zero(kOwnUnknowns * images + kShared, kOwnUnknowns * images + kShared)),
-        b(Eigen::VectorXd::Zero(A.rows())),
-        q(Eigen::MatrixXd::Zero(pixels, A.rows())) {}
-
-  /// w weighs a sample, r = I - rho S - H, J = d (rho S + H)
-  void add_image(Eigen::Index i, const Eigen::ArrayXd& w, const Eigen::ArrayXd& r,
-                 const Eigen::ArrayXd& q_factor, const SampleDerivatives& J) {
-    const SampleDerivatives wJ = w.matrix().asDiagonal() * J;
-    const Eigen::Matrix<double, kSampleUnknowns, kSampleUnknowns> JJ = wJ.transpose() * J;
-    const Eigen::Matrix<double, kSampleUnknowns, 1> Jr = wJ.transpose() * r.matrix();
-    const Eigen::Index own = kOwnUnknowns * i, shared = A.rows() - kShared;
-    A.block<kOwnUnknowns, kOwnUnknowns>(own, own) += JJ.topLeftCorner<kOwnUnknowns, kOwnUnknowns>();
-    A.block<kShared, kOwnUnknowns>(shared, own) += JJ.bottomLeftCorner<kShared, kOwnUnknowns>();
-    A.bottomRightCorner<kShared, kShared>() += JJ.bottomRightCorner<kShared, kShared>();
-    b.segment<kOwnUnknowns>(own) += Jr.head<kOwnUnknowns>();
-    b.tail<kShared>() += Jr.tail<kShared>();
-    q.middleCols<kOwnUnknowns>(own) += q_factor.matrix().asDiagonal() * J.leftCols<kOwnUnknowns>();
-    q.rightCols<kShared>() += q_factor.matrix().asDiagonal() * J.rightCols<kShared>();
-  }
-
-  void add_to(const std::vector<Eigen::Index>& number, NearLampEquations& total) {
-    A.selfadjointView<Eigen::Lower>().rankUpdate(q.transpose(), -1);
-    for (Eigen::Index j = 0; j < A.rows(); ++j) {
-      const Eigen::Index row = number[static_cast<size_t>(j)];
-      total.b[row] += b[j];
-      for (Eigen::Index k = 0; k < A.cols(); ++k)
-        total.A(row, number[static_cast<size_t>(k)]) += A(std::max(j, k), std::min(j, k));
-    }
-  }
-};
-
 void add_channel(const NearLampUnknowns& at, const LampRegion& region, const RegionModel& model,
                  const std::vector<SampleDerivatives>& derivatives, int c, NearLampEquations& total) {
   const Eigen::ArrayXd SS = model.SS.col(c);
@@ -115,7 +67,7 @@ void add_channel(const NearLampUnknowns& at, const LampRegion& region, const Reg
     equations.add_image(static_cast<Eigen::Index>(i), w, r, w * S / root, J);
   }
   total.samples -= static_cast<double>(known.count());
-  equations.add_to(channel_unknowns(at, c), total);
+  equations.add_to(at, c, total);
 }
 
 NearLampEquations region_equations(const NearLampUnknowns& at, const LampRegion& region) {

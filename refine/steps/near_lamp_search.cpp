@@ -7,7 +7,7 @@
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 
-#include "refine/steps/near_lamp_incidence.h"
+#include "refine/steps/near_lamp_places.h"
 #include "refine/steps/near_lamp_prior.h"
 
 namespace rakelight {
@@ -16,55 +16,12 @@ namespace {
 /// Samples whose errors agree: those of the rough shape and albedo that the search has to do with reach far.
 constexpr float kSamplesThatAgree = 100;
 
-struct Place {
-  Eigen::Vector3f direction;
-  float inverse_distance = 0;
-};
-
-/// A lamp may stand at each of these distances in a direction; 0 is a far one.
-void add_places(const Eigen::Vector3f& direction, std::vector<Place>& places) {
-  for (const float inverse_distance : {0.0f, 0.5f, 1.0f, 1.4f, 1.8f, 2.3f, 2.8f})
-    places.push_back({direction, inverse_distance});
-}
-
-/// All over the camera's half of the space about the object.
-std::vector<Place> places_everywhere() {
-  constexpr int kDirections = 150;  // about 12 degrees apart
-  const double turn = M_PI * (3 - std::sqrt(5.0));
-  std::vector<Place> places;
-  for (int k = 0; k < kDirections; ++k) {
-    const double z = -(k + 0.5) / kDirections, r = std::sqrt(1 - z * z);
-    add_places(Eigen::Vector3d(r * std::cos(turn * k), r * std::sin(turn * k), z).cast<float>(), places);
-  }
-  return places;
-}
-
 /// Some of the surface, evenly spread.
 std::vector<int> sample_of_pixels(int pixels) {
   std::vector<int> sample;
   for (int p = 0; p < pixels; p += std::max(1, pixels / 1000)) sample.push_back(p);
   return sample;
 }
-
-/// Places and what a lamp of strength 1 sends from each to the sampled pixels; it is the same for every image.
-struct PlaceTable {
-  std::vector<Place> places;
-  Eigen::MatrixXf value;  ///< [pixel, place] max(0, v.n)
-
-  PlaceTable(std::vector<Place> candidates, const SurfaceState& state, const std::vector<int>& pixels)
-      : places(std::move(candidates)), value(pixels.size(), places.size()) {
-    Lamp lamp;
-    for (size_t k = 0; k < places.size(); ++k) {
-      lamp.direction = places[k].direction;
-      lamp.inverse_distance = places[k].inverse_distance;
-      for (size_t j = 0; j < pixels.size(); ++j)
-        value(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) =
-            incidence_of(lamp, kNoTangents, state.points.col(pixels[j]) - state.scene.center,
-                         state.normals.col(pixels[j]), state.scene.lobe_exponent, false)
-                .value;
-    }
-  }
-};
 
 /// One image at the sampled pixels, a row a pixel, a column a channel; zero where a sample cannot be used.
 struct SampledImage {
@@ -124,7 +81,7 @@ void try_places(const PlaceTable& table, const SampledImage& image, const Lamp& 
 }
 
 /// The trial that image and the rig's usual log power (if known) make most likely: residuals of unknown scale, of which
-/// kCorrelation agree.
+/// kSamplesThatAgree agree.
 const Trial& best_of(const std::vector<Trial>& trials, const float* usual_log_power, size_t samples) {
   const auto score = [&](const Trial& trial) {
     const float fit = static_cast<float>(samples) / kSamplesThatAgree * std::log(trial.misfit + 1e-9f);
@@ -153,7 +110,7 @@ std::vector<Lamp> search_near_lamps(const Observations& images, const SurfaceSta
       const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
       if (!lamp.near) continue;
       const SampledImage image(images, state, i, pixels);
-      std::vector<Place> at_hand;
+      std::vector<LampPlace> at_hand;
       add_places(lamp.direction, at_hand);
       try_places(PlaceTable(at_hand, state, pixels), image, lamp, trials[static_cast<size_t>(i)]);
       try_places(everywhere, image, lamp, trials[static_cast<size_t>(i)]);
