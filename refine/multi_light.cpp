@@ -114,14 +114,15 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
 
     lamps.update(problem, prior, state, t);  // Eq. (26)
     if (t == 1) require_three_directions(images, state, result);
-    state.albedo = estimate_albedo(images, state);  // Eq. (27)
+    const Observations& matt = lamps.matt_images(images);
+    state.albedo = estimate_albedo(matt, state);  // Eq. (27)
     normalize_albedo(state);
-    report.residual_scale = std::max(residual_scale(images, state), model_error);
+    report.residual_scale = std::max(residual_scale(matt, state), model_error);
     if (options.trust.cauchy_scale > 0)
-      reweigh_and_accumulate(images, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale, state,
+      reweigh_and_accumulate(matt, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale, state,
                              tensors);
     else
-      tensors = accumulate_tensors(images, state);
+      tensors = accumulate_tensors(matt, state);
 
     noise = measured_errors(problem, state, t, t <= kWarmUp ? model_error : report.residual_scale);
     prior.cell_weight = sensor_weight(options.depth, noise) * problem.prior.cell_weight;
@@ -156,9 +157,9 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   result.message += "; " + lamps.explanation();
-  result.lamp_uncertainty = lamps.uncertainty(problem, prior, state);
+  result.lamp_uncertainty = lamps.positions(problem, prior, state);
   result.uncertainty =
-      estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, images, state, *solver,
+      estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, lamps.matt_images(images), state,
                            result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
   result.quality["far_over_near_residual"] = lamps.far_over_near();
   result.quality["image_noise"] = noise.image;
