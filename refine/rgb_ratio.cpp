@@ -15,7 +15,9 @@ namespace rakelight {
 namespace {
 
 Eigen::VectorXd channel_of(const Observations& image, int c) {
-  return Eigen::Map<const Eigen::VectorXf>(image.channel(0, c), image.pixels).cast<double>();
+  Eigen::VectorXd radiance(image.pixels);
+  for (int p = 0; p < image.pixels; ++p) radiance[p] = static_cast<double>(image.channel(0, c)[p]);
+  return radiance;
 }
 
 /// Shading of the image at a pixel, without attached shadows.

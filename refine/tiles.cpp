@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "refine/kernels/image_kernels.h"
+
 namespace rakelight {
 namespace {
 
@@ -12,9 +14,7 @@ using kernels::kTilePixels;
 
 /// Columns [begin, begin + count) of a 3 x pixels matrix as planar rows; the rest repeats the last column.
 void copy_planar(const Eigen::Matrix3Xf& from, int begin, int count, kernels::TileRow (&rows)[3]) {
-  const float* values = from.data() + 3 * static_cast<std::ptrdiff_t>(begin);
-  for (int k = 0; k < count; ++k)
-    for (int c = 0; c < 3; ++c) rows[c].at[k] = values[3 * k + c];
+  kernels::deinterleave3(from.data() + 3 * static_cast<std::ptrdiff_t>(begin), count, rows);
   for (int c = 0; c < 3; ++c) std::fill(rows[c].at + count, rows[c].at + kTilePixels, rows[c].at[count - 1]);
 }
 
@@ -46,13 +46,17 @@ std::vector<kernels::TileLamp> tile_lamps(const SurfaceState& state) {
   return lamps;
 }
 
-Tile::Tile(const Observations& images, const SurfaceState& state) : images_(images), state_(state) {}
+Tile::Tile(const Observations& images, const SurfaceState& state)
+    : images_(images),
+      state_(state),
+      any_near_(std::any_of(state.lamps.begin(), state.lamps.end(), [](const Lamp& lamp) { return lamp.near; })) {}
 
 void Tile::move_to(int begin, int count) {
   begin_ = begin;
   count_ = count;
   copy_planar(state_.normals, begin, count, surface_.normal);
   copy_planar(state_.albedo, begin, count, surface_.albedo);
+  if (!any_near_) return;
   copy_planar(state_.points, begin, count, surface_.offset);
   for (int k = 0; k < 3; ++k)
     for (float& value : surface_.offset[k].at) value -= state_.scene.center[k];
@@ -60,16 +64,16 @@ void Tile::move_to(int begin, int count) {
 
 const kernels::TileImage& Tile::image(int i, const float* weight) {
   for (int c = 0; c < 3; ++c) {
-    image_.radiance[c] = images_.channel(i, c) + begin_;
-    image_.usable[c] = images_.usable_in(i, c) + begin_;
+    const ChannelSamples samples = images_.channel(i, c);
+    image_.codes[c] = samples.codes() + begin_;
+    image_.step[c] = samples.step();
+    image_.least[c] = samples.least();
   }
   image_.weight = weight + begin_;
   if (count_ == kTilePixels) return image_;
   for (int c = 0; c < 3; ++c) {
-    std::fill(std::copy_n(image_.radiance[c], count_, radiance_[c].at), std::end(radiance_[c].at), 0.0f);
-    std::fill(std::copy_n(image_.usable[c], count_, usable_[c]), std::end(usable_[c]), static_cast<unsigned char>(0));
-    image_.radiance[c] = radiance_[c].at;
-    image_.usable[c] = usable_[c];
+    std::fill(std::copy_n(image_.codes[c], count_, codes_[c]), std::end(codes_[c]), kernels::TileImage::kUnusable);
+    image_.codes[c] = codes_[c];
   }
   std::fill(std::copy_n(image_.weight, count_, weight_.at), std::end(weight_.at), 0.0f);
   image_.weight = weight_.at;

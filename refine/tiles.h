@@ -43,11 +43,12 @@ class Tile {
 
   const Observations& images_;
   const SurfaceState& state_;
+  bool any_near_;  ///< only near lamps ask where the pixels are
   int begin_ = 0, count_ = 0;
   kernels::TileSurface surface_;
   kernels::TileImage image_;
-  kernels::TileRow radiance_[3], weight_;  ///< the filled-up samples of the last tile
-  unsigned char usable_[3][kernels::kTilePixels];
+  std::uint16_t codes_[3][kernels::kTilePixels];  ///< the filled-up samples of the last tile
+  kernels::TileRow weight_;
 };
 
 /// Calls body(tile) for every tile, in parallel; tiles do not depend on the number of threads.

@@ -23,8 +23,9 @@ void add_albedo_sums(const TileSurface& surface, const TileLamp& lamp, const Til
       const V weight = hn::LoadU(d, image.weight + k);
       for (int c = 0; c < 3; ++c) {
         const V S = shading(light, c, least);
-        const V wS = hn::Mul(hn::Mul(weight, load_usable(image.usable[c], k)), S);
-        hn::Store(hn::MulAdd(wS, hn::LoadU(d, image.radiance[c] + k), hn::Load(d, SI[c].at + k)), d, SI[c].at + k);
+        const Samples samples(image, c, k);
+        const V wS = hn::IfThenElseZero(samples.usable, hn::Mul(weight, S));
+        hn::Store(hn::MulAdd(wS, samples.radiance, hn::Load(d, SI[c].at + k)), d, SI[c].at + k);
         hn::Store(hn::MulAdd(wS, S, hn::Load(d, SS[c].at + k)), d, SS[c].at + k);
       }
     }

@@ -24,10 +24,10 @@ void cauchy_weight(const TileSurface& surface, const TileLamp& lamp, const TileI
       V squares = none, channels = none;
       for (int c = 0; c < 3; ++c) {
         const V model = hn::Mul(hn::Load(d, surface.albedo[c].at + k), shading(light, c, least));
-        const V r = hn::Sub(model, hn::LoadU(d, image.radiance[c] + k));
-        const V usable = load_usable(image.usable[c], k);
-        squares = hn::MulAdd(hn::Mul(usable, r), r, squares);
-        channels = hn::Add(channels, usable);
+        const Samples samples(image, c, k);
+        const V r = hn::IfThenElseZero(samples.usable, hn::Sub(model, samples.radiance));
+        squares = hn::MulAdd(r, r, squares);
+        channels = hn::Add(channels, hn::IfThenElseZero(samples.usable, one));
       }
       const V bounded = hn::Div(channels, hn::MulAdd(squares, inverse_square, hn::Max(channels, one)));
       hn::Store(bounded, d, weight.at + k);

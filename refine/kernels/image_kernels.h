@@ -8,6 +8,9 @@
 
 namespace rakelight::kernels {
 
+/// Splits `count` interleaved triples (at most kTilePixels) into rows.
+void deinterleave3(const float* triples, int count, TileRow (&rows)[3]);
+
 /// Normal equations of one image's light vectors, a channel each: sums of w rho^2 h h' (upper triangle by rows) and
 /// w rho I h, h = (n, 1), n = 0 in the attached shadow of `lamp`. Pixels from count on do not count.
 struct LightSums {

@@ -23,10 +23,19 @@ HWY_INLINE Vector3 load3(const TileRow (&rows)[3], int k) {
   return {hn::Load(d, rows[0].at + k), hn::Load(d, rows[1].at + k), hn::Load(d, rows[2].at + k)};
 }
 
-/// 1 or 0 of the usable flags of a vector of pixels.
-HWY_INLINE V load_usable(const std::uint8_t* flags, int k) {
-  return hn::ConvertTo(D(), hn::PromoteTo(Ints(), hn::LoadU(Bytes(), flags + k)));
-}
+/// Radiance of one channel at a vector of pixels, and which of them can be used.
+struct Samples {
+  V radiance;
+  hn::Mask<D> usable;
+
+  HWY_INLINE Samples(const TileImage& image, int c, int k) {
+    const D d;
+    const hn::Rebind<std::uint16_t, D> shorts;
+    const auto codes = hn::PromoteTo(Ints(), hn::LoadU(shorts, image.codes[c] + k));
+    usable = hn::RebindMask(d, hn::Ne(codes, hn::Set(Ints(), TileImage::kUnusable)));
+    radiance = hn::MulAdd(hn::ConvertTo(d, codes), hn::Set(d, image.step[c]), hn::Set(d, image.least[c]));
+  }
+};
 
 /// Light at the pixels k, k + 1, ... of a tile: S_c = max(least, l_c . n) + phi_c.
 template <LightKind kKind>

@@ -25,7 +25,8 @@ void light_sums_of_channel(const TileSurface& surface, const TileLamp& lamp, con
   for (int k = 0; k < count; k += lanes()) {
     Vector3 n = load3(surface.normal, k);
     const auto inside = hn::FirstN(d, static_cast<size_t>(count - k));
-    const V trust = hn::IfThenElseZero(inside, hn::Mul(hn::LoadU(d, image.weight + k), load_usable(image.usable[c], k)));
+    const Samples samples(image, c, k);
+    const V trust = hn::IfThenElseZero(hn::And(inside, samples.usable), hn::LoadU(d, image.weight + k));
     const V rho = hn::Load(d, surface.albedo[c].at + k);
     const V wr = hn::Mul(trust, rho), wrr = hn::Mul(wr, rho);
     const auto lit = hn::Gt(dot(l, n), least);
@@ -41,7 +42,7 @@ void light_sums_of_channel(const TileSurface& surface, const TileLamp& lamp, con
     a[7] = hn::MulAdd(wn.z, n.z, a[7]);
     a[8] = hn::Add(wn.z, a[8]);
     a[9] = hn::Add(wrr, a[9]);
-    const V I = hn::Mul(wr, hn::LoadU(d, image.radiance[c] + k));
+    const V I = hn::Mul(wr, samples.radiance);
     r[0] = hn::MulAdd(I, n.x, r[0]);
     r[1] = hn::MulAdd(I, n.y, r[1]);
     r[2] = hn::MulAdd(I, n.z, r[2]);

@@ -82,9 +82,9 @@ void add_tensors(const TileSurface& surface, const TileLamp& lamp, const TileIma
       Sums sums(d);
       V rho[3], rest[3];
       for (int c = 0; c < 3; ++c) {
-        const V usable = load_usable(image.usable[c], k);
-        rho[c] = hn::Mul(usable, hn::Load(d, surface.albedo[c].at + k));
-        rest[c] = hn::NegMulAdd(rho[c], light.phi(c), hn::Mul(usable, hn::LoadU(d, image.radiance[c] + k)));
+        const Samples samples(image, c, k);
+        rho[c] = hn::IfThenElseZero(samples.usable, hn::Load(d, surface.albedo[c].at + k));
+        rest[c] = hn::NegMulAdd(rho[c], light.phi(c), hn::IfThenElseZero(samples.usable, samples.radiance));
         sums.e0 = hn::MulAdd(hn::Mul(weight, rest[c]), rest[c], sums.e0);
       }
       add_channels(light, rho, rest, weight, least, sums);

@@ -39,11 +39,13 @@ struct TileLamp {
   float least = 0;         ///< of l.n: 0 with attached shadows, else -infinity
 };
 
-/// Samples of one image in a tile; 16-bit codes, value = least + step * code, kNoSample where none can be used.
+/// Samples of one image in a tile; 16-bit codes, radiance = least + step * code, kUnusable where none can be used.
 struct TileImage {
-  const float* radiance[3] = {};         ///< [channel]
-  const std::uint8_t* usable[3] = {};    ///< [channel] 1 or 0
-  const float* weight = nullptr;         ///< trust in the pixel's sample
+  static constexpr std::uint16_t kUnusable = 0xFFFF;
+
+  const std::uint16_t* codes[3] = {};  ///< [channel]
+  float step[3] = {}, least[3] = {};
+  const float* weight = nullptr;       ///< trust in the pixel's sample
 };
 
 /// e(n) = n' G n - 2 h' n + e0 a pixel (refine/steps/photometric_tensor.h).

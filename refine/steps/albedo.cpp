@@ -22,16 +22,21 @@ Eigen::Matrix3Xf estimate_albedo(const Observations& images, const SurfaceState&
 }
 
 void normalize_albedo(SurfaceState& state) {
-  for (int c = 0; c < 3; ++c) {
-    const float mean = static_cast<float>(state.albedo.row(c).cast<double>().mean());
-    if (!(mean > 0.0f)) continue;
-    state.albedo.row(c) /= mean;
-    for (Lamp& lamp : state.lamps) {
-      lamp.l.row(c) *= mean;
-      lamp.Q[static_cast<size_t>(c)] *= mean;
-      lamp.phi[c] *= mean;
-      lamp.strength[c] *= mean;
-    }
+  const auto pixels = static_cast<int>(state.albedo.cols());
+  const auto block_sum = [&](int begin, int end) -> Eigen::Vector3d {
+    return state.albedo.middleCols(begin, end - begin).rowwise().sum().cast<double>();
+  };
+  const Eigen::Vector3d mean = sum_over_blocks(pixels, Eigen::Vector3d(0, 0, 0), block_sum) / pixels;
+  const Eigen::Vector3f scale = (mean.array() > 0).select(mean, 1.0).cast<float>();
+  const Eigen::Vector3f inverse = scale.cwiseInverse();
+  for_each_block(pixels, [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) state.albedo.col(p) = state.albedo.col(p).cwiseProduct(inverse);
+  });
+  for (Lamp& lamp : state.lamps) {
+    lamp.l = scale.asDiagonal() * lamp.l;
+    for (size_t c = 0; c < 3; ++c) lamp.Q[c] *= scale[static_cast<Eigen::Index>(c)];
+    lamp.phi = lamp.phi.cwiseProduct(scale);
+    lamp.strength = lamp.strength.cwiseProduct(scale);
   }
 }
 

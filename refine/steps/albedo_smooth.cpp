@@ -18,7 +18,10 @@ constexpr double kAlbedoTolerance = 1e-2;
 constexpr float kDimShading = 0.1f;  // of the median shading: below, a pixel does not speak for the albedo
 
 float brightest(const Observations& image) {
-  return std::max(1e-6f, *std::max_element(image.radiance.begin(), image.radiance.end()));
+  float most = 1e-6f;
+  for (int c = 0; c < 3; ++c)
+    for (int p = 0; p < image.pixels; ++p) most = std::max(most, image.channel(0, c)[p]);
+  return most;
 }
 
 Eigen::Matrix3Xd log_radiance(const Observations& image) {

@@ -51,6 +51,23 @@ void PhotometricTensors::set(size_t pixel, const PhotometricTensor& tensor) {
   for (size_t k = 0; k < kParts; ++k) parts_[k * stride_ + pixel] = numbers[k];
 }
 
+void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state, PhotometricTensors& tensors) {
+  const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
+  for_each_tile(images, state, [&](Tile& tile) {
+    kernels::TileTensors sums{};
+    kernels::TileRow weight;
+    for (size_t i = 0; i < lamps.size(); ++i) {
+      kernels::TileImage image = tile.image(static_cast<int>(i));
+      kernels::cauchy_weight(tile.surface(), lamps[i], image, static_cast<float>(scale), weight);
+      image.weight = weight.at;
+      kernels::add_tensors(tile.surface(), lamps[i], image, sums);
+      std::copy_n(weight.at, tile.count(),
+                  state.weight.data() + i * static_cast<size_t>(images.pixels) + static_cast<size_t>(tile.begin()));
+    }
+    store(sums, tile.begin(), tile.count(), tensors);
+  });
+}
+
 PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceState& state) {
   PhotometricTensors tensors(static_cast<size_t>(images.pixels));
   const std::vector<kernels::TileLamp> lamps = tile_lamps(state);

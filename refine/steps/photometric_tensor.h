@@ -49,4 +49,8 @@ class PhotometricTensors {
 /// Tensors of all pixels under the state's weights. Samples on the far side of a lamp (l.n <= 0) count in e0 only.
 PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceState& state);
 
+/// The same under new Cauchy weights (refine/steps/robust_weights.h), which the state keeps: both in one read of the images.
+/// @param scale k sigma of the weights  @param tensors of as many pixels
+void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state, PhotometricTensors& tensors);
+
 }  // namespace rakelight

@@ -42,7 +42,12 @@ std::vector<cv::Point> cell_positions(const PixelGrid& grid, const DepthCells& c
 
 Eigen::VectorXd cell_means(const DepthCells& cells, const Eigen::VectorXd& zeta) {
   Eigen::VectorXd means(cells.size());
+  const bool one_pixel_each = cells.size() == static_cast<int>(zeta.size());  // and in their order
   for_each_block(cells.size(), [&](int begin, int end) {
+    if (one_pixel_each) {
+      means.segment(begin, end - begin) = zeta.segment(begin, end - begin);
+      return;
+    }
     for (int cell = begin; cell < end; ++cell) {
       double sum = 0;
       for (const int p : cells.of(cell)) sum += zeta[p];
@@ -53,8 +58,15 @@ Eigen::VectorXd cell_means(const DepthCells& cells, const Eigen::VectorXd& zeta)
 }
 
 double prior_energy(const DepthPrior& prior, const Eigen::VectorXd& zeta) {
-  const Eigen::VectorXd miss = cell_means(prior.cells, zeta) - prior.cell_target;
-  return prior.cell_weight.dot(miss.cwiseAbs2()) + prior.floor * (zeta - prior.start).squaredNorm();
+  const Eigen::VectorXd means = cell_means(prior.cells, zeta);
+  const double of_cells = sum_over_blocks(prior.cells.size(), 0.0, [&](int begin, int end) {
+    const auto of = [&](const Eigen::VectorXd& v) { return v.segment(begin, end - begin).array(); };
+    return (of(prior.cell_weight) * (of(means) - of(prior.cell_target)).square()).sum();
+  });
+  const double of_pixels = sum_over_blocks(static_cast<int>(zeta.size()), 0.0, [&](int begin, int end) {
+    return (zeta.segment(begin, end - begin) - prior.start.segment(begin, end - begin)).squaredNorm();
+  });
+  return of_cells + prior.floor * of_pixels;
 }
 
 void add_prior(const DepthPrior& prior, const Eigen::VectorXd& zeta, DepthSystem& system) {

@@ -138,7 +138,9 @@ TEST(Tensors, OfSecondOrderLampsHaveTheSlopeOfTheTrueEnergy) {
   const test::ExactSurface sphere = test::exact_sphere(24);
   SurfaceState state = test::exact_state(sphere, test::varied_albedo(sphere), test::second_order_lamps(), false);
   Observations images = test::images_of(state);
-  for (float& radiance : images.radiance) radiance *= 0.9f;
+  test::change_samples(images, [](PlainSamples& samples) {
+    for (float& radiance : samples.radiance) radiance *= 0.9f;
+  });
   const auto tensors = accumulate_tensors(images, state);
   const auto energy = [&](int p, const Eigen::Vector3d& n) {
     double sum = 0;
@@ -257,8 +259,10 @@ struct SpoiltImages {
     images = test::images_of(state);
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform(0, 1);
-    for (float& radiance : images.radiance) radiance += 0.2f * uniform(random);
-    for (unsigned char& usable : images.usable) usable = uniform(random) < 0.8f;
+    test::change_samples(images, [&](PlainSamples& samples) {
+      for (float& radiance : samples.radiance) radiance += 0.2f * uniform(random);
+      for (unsigned char& usable : samples.usable) usable = uniform(random) < 0.8f;
+    });
     for (float& weight : state.weight) weight = uniform(random) < 0.1f ? 0.0f : uniform(random);
   }
 
@@ -267,12 +271,11 @@ struct SpoiltImages {
     double sum = 0;
     for (int i = 0; i < images.images; ++i) {
       for (int c = 0; c < 3; ++c) {
-        const size_t at = test::sample_index(images, i, c, p);
-        if (!images.usable[at]) continue;
+        if (!images.usable(i, c, p)) continue;
         const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
         const bool dark = state.attached_shadows && lamp.l.row(c).dot(state.normals.col(p)) <= 0;
         const float lit = dark ? 0.0f : lamp.l.row(c).dot(normal);
-        const float r = state.albedo(c, p) * (lit + lamp.phi[c]) - images.radiance[at];
+        const float r = state.albedo(c, p) * (lit + lamp.phi[c]) - images.channel(i, c)[p];
         sum += static_cast<double>(state.weight[static_cast<size_t>(i * images.pixels + p)] * r * r);
       }
     }

@@ -228,9 +228,11 @@ void make_glossy_and_shadowed(const Gloss& gloss, NearlyLitSphere& lit) {
   const Observations matt = lit.images;
   SurfaceState dull = lit.state;
   take_off_highlights(matt, dull, -gloss, lit.images);
-  for (int p = 0; p < lit.images.pixels; ++p)
-    if (lit.state.points(0, p) > 0.05f && lit.state.points(1, p) > 0)
-      for (int c = 0; c < 3; ++c) lit.images.radiance[test::sample_index(lit.images, 0, c, p)] *= 0.05f;
+  test::change_samples(lit.images, [&](PlainSamples& samples) {
+    for (int p = 0; p < lit.images.pixels; ++p)
+      if (lit.state.points(0, p) > 0.05f && lit.state.points(1, p) > 0)
+        for (int c = 0; c < 3; ++c) samples.radiance[test::sample_index(lit.images, 0, c, p)] *= 0.05f;
+  });
 }
 
 /// Mean distance of the lamps found from the true ones, metres, after a fit of glossy, shadowed images from the truth on.
@@ -304,7 +306,7 @@ TEST(MattImages, AreTheImagesLessTheHighlights) {
   take_off_highlights(lit.images, lit.state, gloss, matt);
   double brightest = 0;
   for (int p = 0; p < before.pixels; ++p) {
-    EXPECT_NEAR(matt.channel(1, 2)[p], before.channel(1, 2)[p], 1e-6f);
+    EXPECT_NEAR(matt.channel(1, 2)[p], before.channel(1, 2)[p], 1e-4f);
     brightest =
         std::max(brightest, static_cast<double>(lit.images.channel(1, 2)[p] - before.channel(1, 2)[p]));
   }
@@ -328,7 +330,9 @@ Spread spread_under_noise(float deviation) {
   Eigen::Array<double, kDraws, 1> errors;
   for (int draw = 0; draw < kDraws; ++draw) {
     lit.images = clean;
-    for (float& radiance : lit.images.radiance) radiance += noise(random);
+    test::change_samples(lit.images, [&](PlainSamples& samples) {
+      for (float& radiance : samples.radiance) radiance += noise(random);
+    });
     lit.state.lamps = lit.truth;
     Gloss gloss = Gloss::Zero();
     for (int i = 0; i < 4; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state, gloss);
