@@ -7,8 +7,8 @@
 namespace rakelight {
 namespace {
 
-void take_off_highlight(const Observations& seen, const SurfaceState& state, const Gloss& gloss, int image,
-                        Observations& matt) {
+void take_off_highlights(const Observations& seen, const SurfaceState& state, const Gloss& gloss, int image,
+                         Observations& matt) {
   const Lamp& lamp = state.lamps[static_cast<size_t>(image)];
   const auto pixels = static_cast<size_t>(seen.pixels);
   std::vector<float> share(pixels), radiance(pixels);
@@ -19,9 +19,9 @@ void take_off_highlight(const Observations& seen, const SurfaceState& state, con
   for (int c = 0; c < 3; ++c) {
     const ChannelSamples samples = seen.channel(image, c);
     for (int p = 0; p < seen.pixels; ++p) {
-      const auto at = static_cast<size_t>(p);
-      radiance[at] = samples[p] - share[at] * lamp.strength[c];
-      usable[at] = samples.usable(p);
+      const auto k = static_cast<size_t>(p);
+      usable[k] = samples.usable(p) ? 1 : 0;
+      radiance[k] = samples[p] - share[k] * lamp.strength[c];
     }
     matt.set_channel(image, c, radiance.data(), usable.data());
   }
@@ -32,7 +32,7 @@ void take_off_highlight(const Observations& seen, const SurfaceState& state, con
 void take_off_highlights(const Observations& seen, const SurfaceState& state, const Gloss& gloss,
                          Observations& matt) {
   cv::parallel_for_(cv::Range(0, seen.images), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) take_off_highlight(seen, state, gloss, i, matt);
+    for (int i = range.start; i < range.end; ++i) take_off_highlights(seen, state, gloss, i, matt);
   });
 }
 
