@@ -22,6 +22,9 @@ namespace {
 /// to the sensor, and edge weights would take the sensor's steps for edges and tear the surface there.
 constexpr int kWarmUp = 8;
 
+/// Of a step's linear system (DepthSolver): the next step starts from where this one ends, so exact ones gain nothing.
+constexpr double kStepTolerance = 0.01;
+
 /// Factor on the Cauchy scale: wide at first, tight at the end. Judged on the start's normals, samples would be dropped
 /// for good on one side of a shadow and kept on the other, and the surface would tear between them.
 double cauchy_annealing(int iteration) {
@@ -94,13 +97,13 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   SurfaceState& state = result.state = initial_state(problem, options);
   const auto solver = options.depth.solver == Solver::exact
                           ? make_cholesky_depth_solver(problem.grid, problem.prior.cells)
-                          : make_multigrid_depth_solver(problem.grid, problem.prior.cells);
+                          : make_multigrid_depth_solver(problem.grid, problem.prior.cells, kStepTolerance);
   const double model_error = options.trust.model_error * median_radiance(images);
   LampEstimator lamps(options.lamps);
   DepthPrior prior = problem.prior;
   MeasuredNoise noise;
-  std::vector<PhotometricTensor> tensors;
-  std::vector<std::array<float, 4>> weights;
+  PhotometricTensors tensors(static_cast<size_t>(images.pixels));
+  CornerWeights weights;
 
   for (int t = 1; t <= options.max_iterations; ++t) {
     IterationReport report;
@@ -115,12 +118,13 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     normalize_albedo(state);
     report.residual_scale = std::max(residual_scale(images, state), model_error);
     if (options.trust.cauchy_scale > 0)
-      state.weight = cauchy_weights(images, state,
-                                    cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale);
+      reweigh_and_accumulate(images, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale, state,
+                             tensors);
+    else
+      tensors = accumulate_tensors(images, state);
 
     noise = measured_errors(problem, state, t, t <= kWarmUp ? model_error : report.residual_scale);
     prior.cell_weight = sensor_weight(options.depth, noise) * problem.prior.cell_weight;
-    tensors = accumulate_tensors(images, state);
     const double edge_weight = t > kWarmUp ? options.trust.edge_weight : 0;
     weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
     const DepthProblem depth{problem.grid, problem.corners, tensors, weights, prior};

@@ -4,6 +4,7 @@
 
 #include <future>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "refine/output/glb.h"
@@ -58,6 +59,33 @@ std::vector<IterationReport> read_iterations(ObjectReader& manifest) {
   return iterations;
 }
 
+bool present(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+/// @return empty where the stack has no folder
+std::optional<StackPlace> place_of(const LightStack* stack, const fs::path& result) {
+  std::error_code unknown;  // a path that cannot be resolved is told as it is
+  if (stack == nullptr || stack->origin.empty()) return std::nullopt;
+  const fs::path absolute = fs::weakly_canonical(fs::absolute(stack->origin, unknown), unknown);
+  return StackPlace{absolute.lexically_relative(fs::weakly_canonical(fs::absolute(result, unknown), unknown)),
+                    absolute};
+}
+
+/// Beside the result as it was, or where it lay then; a file of another program may say anything, so nothing is refused.
+fs::path find_stack(ObjectReader& manifest, const fs::path& folder) {
+  const auto* const place = manifest.find("stack");
+  if (place == nullptr || !place->is_object()) return {};
+  const auto text = [place](const char* key) {
+    const auto found = place->find(key);
+    return found != place->end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  const std::string relative = text("relative"), absolute = text("absolute");
+  if (!relative.empty() && present(folder / relative)) return (folder / relative).lexically_normal();
+  return !absolute.empty() && present(absolute) ? fs::path(absolute) : fs::path();
+}
+
 void read_manifest(const fs::path& file, StoredResult& result) {
   const Bytes bytes = read_file(file, kMaxManifestBytes);
   const auto json = parse_strict_json({bytes.begin(), bytes.end()}, file.string());
@@ -72,12 +100,8 @@ void read_manifest(const fs::path& file, StoredResult& result) {
   ObjectReader camera = *manifest.maybe_object("camera");
   result.camera = read_camera(camera);
   result.message = manifest.text("message", "");
+  result.stack = find_stack(manifest, file.parent_path());
   if (manifest.find("iterations") != nullptr) result.iterations = read_iterations(manifest);
-}
-
-bool present(const fs::path& file) {
-  std::error_code ignored;
-  return fs::exists(file, ignored);
 }
 
 }  // namespace
@@ -96,7 +120,7 @@ void write_result(const RefineResult& result, const fs::path& folder, const Ligh
   write_file(out.path() / "mesh.glb", glb_bytes(mesh_of(result, stride_for(result.depth, kMaxGlbVertices))));
   write_png(out.path() / "before_after.png", before_after_picture(result));
   write_file(out.path() / "report.html", report_html(result, stack));
-  write_file(out.path() / kManifest, result_json(result));
+  write_file(out.path() / kManifest, result_json(result, place_of(stack, folder)));
   out.commit();
 }
 

@@ -145,7 +145,7 @@ NearLampProblem::NearLampProblem(const Observations& images, const BroadShape* s
 }
 
 double NearLampProblem::weight(int image, int c, int p) const {
-  if (!images_.usable_in(image, c)[p]) return 0;
+  if (!images_.usable(image, c, p)) return 0;
   const auto pixels = static_cast<size_t>(images_.pixels);
   return static_cast<double>(state_.weight[static_cast<size_t>(image) * pixels + static_cast<size_t>(p)]);
 }

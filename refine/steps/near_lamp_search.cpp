@@ -36,8 +36,7 @@ double fit_strength(const Observations& images, const SurfaceState& state, int i
                         .value);
   double misfit = 0;
   for (int c = 0; c < 3; ++c) {
-    const float* I = images.channel(image, c);
-    const unsigned char* usable = images.usable_in(image, c);
+    const ChannelSamples I = images.channel(image, c);
     Eigen::Matrix2d A = 1e-9 * Eigen::Matrix2d::Identity();
     Eigen::Vector2d b = Eigen::Vector2d::Zero();
     const auto row = [&](size_t k, int p) -> Eigen::Vector2d {
@@ -45,7 +44,7 @@ double fit_strength(const Observations& images, const SurfaceState& state, int i
     };
     for (size_t k = 0; k < value.size(); ++k) {
       const int p = stride * static_cast<int>(k);
-      if (!usable[p]) continue;
+      if (!I.usable(p)) continue;
       const Eigen::Vector2d h = row(k, p);
       A += h * h.transpose();
       b += static_cast<double>(I[p]) * h;
@@ -55,7 +54,7 @@ double fit_strength(const Observations& images, const SurfaceState& state, int i
       s = s[0] < 0 ? Eigen::Vector2d(0, b[1] / A(1, 1)) : Eigen::Vector2d(b[0] / A(0, 0), 0);
     for (size_t k = 0; k < value.size(); ++k) {
       const int p = stride * static_cast<int>(k);
-      if (usable[p]) misfit += std::abs(s.dot(row(k, p)) - static_cast<double>(I[p]));
+      if (I.usable(p)) misfit += std::abs(s.dot(row(k, p)) - static_cast<double>(I[p]));
     }
     lamp.strength[c] = static_cast<float>(s[0]);
     lamp.phi[c] = static_cast<float>(s[1]);

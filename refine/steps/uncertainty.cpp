@@ -143,7 +143,7 @@ Uncertainty estimate_uncertainty(const DepthProblem& depth, int scale, const Obs
   Random random(1);
   const SensorDraws sensor(depth, scale, state.zeta);
   const DepthSystem system = depth_system(depth, state.zeta, kGaussNewton);
-  std::vector<PhotometricTensor> tensors = depth.tensors;
+  PhotometricTensors tensors = depth.tensors;
   DepthPrior prior = depth.prior;
   Eigen::VectorXd zeta_square = Eigen::VectorXd::Zero(depth.grid.size()), normal_square = zeta_square;
   Eigen::VectorXd change = zeta_square;
@@ -152,8 +152,11 @@ Uncertainty estimate_uncertainty(const DepthProblem& depth, int scale, const Obs
   for (int k = 0; k < draws; ++k) {
     prior.cell_target = depth.prior.cell_target + sensor.change_of_target(random);
     const Eigen::Matrix3Xf h = h_of_scaled_residuals(images, state, factors_of_images(images.images, random));
-    for (size_t p = 0; p < tensors.size(); ++p)
-      tensors[p].h = depth.tensors[p].h + h.col(static_cast<Eigen::Index>(p));
+    for (size_t p = 0; p < tensors.size(); ++p) {
+      PhotometricTensor drawn = depth.tensors[p];
+      drawn.h += h.col(static_cast<Eigen::Index>(p));
+      tensors.set(p, drawn);
+    }
     const DepthProblem drawn{depth.grid, depth.corners, tensors, depth.corner_weight, prior};
     const Eigen::VectorXd rhs = depth_system(drawn, state.zeta, kGaussNewton).rhs - system.rhs;
     if (!solver.solve_again(rhs, change)) return {};

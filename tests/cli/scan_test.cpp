@@ -11,6 +11,7 @@
 
 #include "capture/rig.h"
 #include "stack/stack_io.h"
+#include "tests/cli/small_virtual_rig.h"
 #include "tests/support/file_edits.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -23,16 +24,6 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
-
-/// The example file of the virtual rig with small pictures, so that rendering and refining take no time.
-fs::path small_virtual_rig(const TemporaryFolder& home) {
-  const fs::path rig = home / "rig.toml";
-  set_text(rig, text_of(fs::path(RAKELIGHT_SOURCE_DIR) / "hw/rigs/virtual.toml"));
-  for (const std::string stream : {"color", "depth"})
-    replace_in_file(rig, stream + " = { width = 640, height = 480",
-                    stream + " = { width = 320, height = 240");
-  return rig;
-}
 
 /// The same with a calibration of its own, so that the sensor's registration stays off: its depth camera stands 25 mm to the
 /// right of the colour camera.

@@ -231,7 +231,9 @@ Spread spread_under_noise(float deviation) {
   Eigen::Array<double, kDraws, 1> errors;
   for (int draw = 0; draw < kDraws; ++draw) {
     lit.images = clean;
-    for (float& radiance : lit.images.radiance) radiance += noise(random);
+    test::change_samples(lit.images, [&](PlainSamples& samples) {
+      for (float& radiance : samples.radiance) radiance += noise(random);
+    });
     lit.state.lamps = lit.truth;
     for (int i = 0; i < 4; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state);
     const double error = 1 / static_cast<double>(lit.state.lamps[0].inverse_distance) - 0.7;

@@ -19,8 +19,10 @@ struct MissedSphere {
   Observations images = test::images_of(state);
 
   MissedSphere() {
-    for (size_t k = 0; k < images.radiance.size(); ++k)
-      images.radiance[k] += 0.02f * std::sin(static_cast<float>(k));
+    test::change_samples(images, [](PlainSamples& samples) {
+      for (size_t k = 0; k < samples.radiance.size(); ++k)
+        samples.radiance[k] += 0.02f * std::sin(static_cast<float>(k));
+    });
     state.albedo = estimate_albedo(images, state);
   }
 };
@@ -42,18 +44,20 @@ TEST(Uncertainty, ScaledResidualsPullOnTheNormalsAsChangedImagesDo) {
   const float t = 0.05f;
   const auto pull_at = [&](float step) {
     Observations images = missed.images;
-    for (int i = 0; i < images.images; ++i) {
-      for (int p = 0; p < images.pixels; ++p) {
-        const Eigen::Vector3f n = missed.state.normals.col(p);
-        const LocalLight light = light_at(missed.state.lamps[static_cast<size_t>(i)],
-                                          missed.state.points.col(p), n, missed.state.scene);
-        const Eigen::Vector3f S = shading(light, n, true);
-        for (int c = 0; c < 3; ++c) {
-          float& I = images.radiance[test::sample_index(images, i, c, p)];
-          I += step * factor[static_cast<size_t>(i)] * (I - missed.state.albedo(c, p) * S[c]);
+    test::change_samples(images, [&](PlainSamples& samples) {
+      for (int i = 0; i < images.images; ++i) {
+        for (int p = 0; p < images.pixels; ++p) {
+          const Eigen::Vector3f n = missed.state.normals.col(p);
+          const LocalLight light = light_at(missed.state.lamps[static_cast<size_t>(i)],
+                                            missed.state.points.col(p), n, missed.state.scene);
+          const Eigen::Vector3f S = shading(light, n, true);
+          for (int c = 0; c < 3; ++c) {
+            float& I = samples.radiance[test::sample_index(images, i, c, p)];
+            I += step * factor[static_cast<size_t>(i)] * (I - missed.state.albedo(c, p) * S[c]);
+          }
         }
       }
-    }
+    });
     SurfaceState state = missed.state;
     state.albedo = estimate_albedo(images, state);
     return pull_on_normals(images, state);
@@ -66,8 +70,8 @@ TEST(Uncertainty, ScaledResidualsPullOnTheNormalsAsChangedImagesDo) {
 struct SensorAlone {
   MissedSphere missed;
   CornerList corners = make_corners(missed.sphere.grid, Stencil::symmetric);
-  std::vector<PhotometricTensor> tensors = std::vector<PhotometricTensor>(missed.sphere.grid.pixels.size());
-  std::vector<std::array<float, 4>> weights{tensors.size(), std::array<float, 4>{0.25f, 0.25f, 0.25f, 0.25f}};
+  PhotometricTensors tensors = PhotometricTensors(missed.sphere.grid.pixels.size());
+  CornerWeights weights = CornerWeights(tensors.size());
   DepthPrior prior;
 
   explicit SensorAlone(double deviation) {
