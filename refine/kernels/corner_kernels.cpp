@@ -81,7 +81,9 @@ struct Tensor {
   }
 };
 
-void corner_energies(const CornerRun& run, const TensorRun& tensors, float* energies) {
+/// Calls store(i, e): e the energies max(0, e) of the existing corners of the pixels i, i + 1, ..., 0 of the others.
+template <class Store>
+HWY_INLINE void for_corner_energies(const CornerRun& run, const TensorRun& tensors, const Store& store) {
   const D d;
   for (int i = 0; i < run.count; i += lanes()) {
     const Gradients g(run, i);
@@ -95,8 +97,28 @@ void corner_energies(const CornerRun& run, const TensorRun& tensors, float* ener
       const V energy = hn::Max(hn::Zero(d), tensor.energy(n, tensor.times(n)));
       e[k] = hn::IfThenElseZero(has_corner(bits, k), energy);
     }
-    store_interleaved<4>(e, run.count - i, energies + 4 * i);
+    store(i, e);
   }
+}
+
+void corner_energies(const CornerRun& run, const TensorRun& tensors, float* energies) {
+  for_corner_energies(run, tensors,
+                      [&](int i, const V (&e)[4]) { store_interleaved<4>(e, run.count - i, energies + 4 * i); });
+}
+
+void corner_weights(const CornerRun& run, const TensorRun& tensors, const float* share, float half, float* weights) {
+  const D d;
+  const V one = hn::Set(d, 1.0f), inverse_half = hn::Set(d, 1.0f / half);
+  for_corner_energies(run, tensors, [&](int i, const V (&e)[4]) {
+    const auto bits = load_bits(run.present, i);
+    const V here = hn::LoadU(d, share + i);
+    V w[4];
+    for (int k = 0; k < 4; ++k) {
+      const V weight = hn::Div(here, hn::Sqrt(hn::MulAdd(e[k], inverse_half, one)));
+      w[k] = hn::IfThenElseZero(has_corner(bits, k), weight);
+    }
+    store_interleaved<4>(w, run.count - i, weights + 4 * i);
+  });
 }
 
 float weighted_energy(const CornerRun& run, const TensorRun& tensors, const float* weights) {
@@ -231,6 +253,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rakelight::kernels {
 HWY_EXPORT(corner_energies);
+HWY_EXPORT(corner_weights);
 HWY_EXPORT(weighted_energy);
 HWY_EXPORT(corner_equations);
 HWY_EXPORT(gather_equations);
@@ -238,6 +261,10 @@ HWY_EXPORT(mean_normals);
 
 void corner_energies(const CornerRun& run, const TensorRun& tensors, float* energies) {
   HWY_DYNAMIC_DISPATCH(corner_energies)(run, tensors, energies);
+}
+
+void corner_weights(const CornerRun& run, const TensorRun& tensors, const float* share, float half, float* weights) {
+  HWY_DYNAMIC_DISPATCH(corner_weights)(run, tensors, share, half, weights);
 }
 
 float weighted_energy(const CornerRun& run, const TensorRun& tensors, const float* weights) {

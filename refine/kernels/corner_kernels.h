@@ -34,6 +34,9 @@ struct EquationRow {
 /// max(0, e) of each existing corner, 0 of the others.
 void corner_energies(const CornerRun& run, const TensorRun& tensors, float* energies);
 
+/// share / sqrt(1 + e / half) of each existing corner, 0 of the others. @param share [pixel], padded
+void corner_weights(const CornerRun& run, const TensorRun& tensors, const float* share, float half, float* weights);
+
 /// Sum of weight e over the run.
 float weighted_energy(const CornerRun& run, const TensorRun& tensors, const float* weights);
 

@@ -3,7 +3,7 @@
 #include "refine/steps/depth_step.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace rakelight {
 namespace {
@@ -19,17 +19,22 @@ const float* weights_of(const CornerWeights& weights, const PixelRun& run) {
   return weights[static_cast<size_t>(run.first)].data();
 }
 
-/// Median over the corners of a fixed choice of pixels, enough for one good to a percent.
-float median_energy(const CornerList& corners, const CornerWeights& energy) {
-  constexpr size_t kSamples = 20000;
-  const size_t step = std::max<size_t>(1, energy.size() / kSamples);
-  std::vector<float> sorted;
-  for (size_t p = 0; p < energy.size(); p += step)
-    for (int k = 0; k < kCorners; ++k)
-      if (corners.has(static_cast<int>(p), k)) sorted.push_back(energy[p][static_cast<size_t>(k)]);
-  if (sorted.empty()) return 0;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+/// Median energy over the corners of a fixed choice of rows, enough for one good to a percent.
+float median_energy(const PixelGrid& grid, const ZetaImage& image, const CornerList& corners,
+                    const PhotometricTensors& tensors) {
+  constexpr int kSamples = 20000;  // pixels
+  const int step = std::max(1, grid.size() / kSamples);
+  std::vector<float> energies, row(static_cast<size_t>(kCorners * grid.box.width));
+  for (int y = 0; y < grid.box.height; y += step) {
+    for_each_run(grid, y, [&](const PixelRun& run) {
+      kernels::corner_energies(image.run(corners, y, run), tensor_run(tensors, run), row.data());
+      for (int k = 0; k < kCorners * run.count; ++k)
+        if (corners.has(run.first + k / kCorners, k % kCorners)) energies.push_back(row[static_cast<size_t>(k)]);
+    });
+  }
+  if (energies.empty()) return 0;
+  const auto middle = energies.begin() + static_cast<std::ptrdiff_t>(energies.size() / 2);
+  std::nth_element(energies.begin(), middle, energies.end());
   return *middle;
 }
 
@@ -115,24 +120,12 @@ class Assembly {
 CornerWeights corner_weights(const PixelGrid& grid, const CornerList& corners, const PhotometricTensors& tensors,
                              const Eigen::VectorXd& zeta, double edge_weight) {
   CornerWeights weights(static_cast<size_t>(grid.size()));
-  float half = 0;
-  if (edge_weight > 0) {
-    const ZetaImage image(grid, zeta);
-    for_each_run(grid, [&](int y, const PixelRun& run) {
-      kernels::corner_energies(image.run(corners, y, run), tensor_run(tensors, run),
-                               weights[static_cast<size_t>(run.first)].data());
-    });
-    half = static_cast<float>(edge_weight) * median_energy(corners, weights);
-  }
-  for_each_block(grid.size(), [&](int begin, int end) {
-    for (int p = begin; p < end; ++p) {
-      const auto at = static_cast<size_t>(p);
-      for (int k = 0; k < kCorners; ++k) {
-        float& w = weights[at][static_cast<size_t>(k)];
-        const float share = corners.has(p, k) ? corners.weight[at] : 0.0f;
-        w = half > 0 ? share / std::sqrt(1.0f + w / half) : share;
-      }
-    }
+  const ZetaImage image(grid, zeta);
+  const float half = edge_weight > 0 ? static_cast<float>(edge_weight) * median_energy(grid, image, corners, tensors) : 0;
+  for_each_run(grid, [&](int y, const PixelRun& run) {
+    kernels::corner_weights(image.run(corners, y, run), tensor_run(tensors, run), corners.weight.data() + run.first,
+                            half > 0 ? half : std::numeric_limits<float>::infinity(),
+                            weights[static_cast<size_t>(run.first)].data());
   });
   return weights;
 }

@@ -57,7 +57,7 @@ CornerList make_corners(const PixelGrid& grid, Stencil stencil, const std::vecto
                         const std::vector<unsigned char>& cut_down) {
   CornerList list;
   list.present.assign(static_cast<size_t>(grid.size() + kVectorPadding), 0);
-  list.weight.assign(static_cast<size_t>(grid.size()), 0.0f);
+  list.weight.assign(static_cast<size_t>(grid.size() + kVectorPadding), 0.0f);
   const int most = stencil == Stencil::forward ? 1 : kCorners;
   for (int p = 0; p < grid.size(); ++p) {
     const auto at = static_cast<size_t>(p);

@@ -33,7 +33,7 @@ Corner corner_at(const PixelGrid& grid, int p, int k);
 /// with weight 0: a rough normal, no say in the shape.
 struct CornerList {
   std::vector<unsigned char> present;  ///< [pixel]: bit k for corner k; padded by kVectorPadding
-  std::vector<float> weight;           ///< [pixel]: of each corner, 1 / number of corners of the pixel
+  std::vector<float> weight;           ///< [pixel]: of each corner, 1 / number of corners of the pixel; padded likewise
 
   bool has(int p, int k) const { return (present[static_cast<size_t>(p)] >> k & 1) != 0; }
 
