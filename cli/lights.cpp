@@ -16,6 +16,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/lights_list.h"
+#include "cli/read_back.h"
 #include "stack/errors.h"
 
 namespace rakelight::cli {
@@ -75,8 +76,9 @@ double milliseconds(const SwitchTime& time) {
 /// Virtual lamps last as long as the program that switches them: one lit by hand would be seen by nobody.
 void refuse_virtual_lamps(const Rig& rig) {
   if (!rig.virtual_rig || rig.virtual_rig->lamps_on_lines) return;
-  throw UsageError("the lamps of \"" + rig.name +
-                   "\" are virtual and nobody would see them; try each with 'rakelight lights test', or scan");
+  throw UsageError(
+      "the lamps of \"" + rig.name +
+      "\" are virtual and nobody would see them; try each with 'rakelight lights test', or scan");
 }
 
 void run_on(const Arguments& arguments) {
@@ -102,35 +104,6 @@ void run_off(const Arguments& arguments) {
   const auto lights = open_lights(rig);
   const SwitchTime time = lights->all_off();
   if (arguments.json) print_json({{"off", lights->ids()}, {"write_ms", milliseconds(time)}});
-}
-
-/// What the lines say while only this lamp should be lit.
-struct ReadBack {
-  bool read = true;  ///< false: the chip does not tell levels of outputs
-  bool lit = false;
-  std::string others;  ///< lamps that are lit, too
-
-  bool as_written() const { return !read || (lit && others.empty()); }
-};
-
-ReadBack read_back(const Lights& lights, const std::string& id) {
-  ReadBack found;
-  try {
-    for (const std::string& lit : lights.lit()) {
-      if (lit == id) {
-        found.lit = true;
-      } else {
-        found.others += (found.others.empty() ? "" : ", ") + lit;
-      }
-    }
-  } catch (const std::system_error&) { found.read = false; }
-  return found;
-}
-
-std::string to_string(const ReadBack& found) {
-  if (!found.read) return "not read back";
-  return std::string(found.lit ? "lit" : "NOT LIT") +
-         (found.others.empty() ? "" : ", but so is " + found.others);
 }
 
 json test_lamp(Lights& lights, const RigLamp& lamp, std::chrono::duration<double> time, bool print) {

@@ -56,9 +56,10 @@ A scan that is interrupted (130; closing the window of --view does it, too) or l
 Rig rig_of(const Arguments& arguments) {
   Rig rig = arguments.rig.empty() ? virtual_rig() : read_rig(arguments.rig);
   if (!is_recording(rig)) return rig;
-  throw UsageError("scan: the sensor of " + arguments.rig.string() + " is the recording " + rig.sensor.uri +
-                   ", which no lamp changes any more; refine a stack as it is, and turn an .oni file into one with "
-                   "'rakelight import oni'");
+  throw UsageError(
+      "scan: the sensor of " + arguments.rig.string() + " is the recording " + rig.sensor.uri +
+      ", which no lamp changes any more; refine a stack as it is, and turn an .oni file into one with "
+      "'rakelight import oni'");
 }
 
 std::string lamp_text(const Frame& frame) { return frame.light ? "lamp " + *frame.light : "no lamp"; }
@@ -104,9 +105,9 @@ Scanned scan_with_bar(const Rig& rig, const std::unique_ptr<Lights> lights, cons
   try {
     const auto source =
         view.watched(open_frame_source(rig), rig.calibration.color_response.value_or(ColorResponse()));
-    Scanned scanned{capture_stack({*source, *lights, monotonic_clock()}, rig,
-                                  options_of(arguments, folder, view), show),
-                    {}};
+    Scanned scanned{
+        capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder, view), show),
+        {}};
     if (rig.virtual_rig) scanned.truth = virtual_truth(rig);
     return scanned;
   } catch (const Cancelled&) { throw Cancelled(kept(folder, arguments)); } catch (const SensorLost& lost) {

@@ -21,7 +21,8 @@ void sample_pixel(const ShadingContext& context, const Camera& camera, int u, in
   samples.clear();
   const int n = context.options.image.samples;
   for (int k = 0; k < n * n; ++k) {
-    const double du = (k % n + 0.5) / n - 0.5, dv = (k / n + 0.5) / n - 0.5;
+    const int column = k % n, row = k / n;
+    const double du = (column + 0.5) / n - 0.5, dv = (row + 0.5) / n - 0.5;
     const Eigen::Vector3f ray = pixel_ray(camera, u + du, v + dv);
     if (const auto hit = context.tracer.trace(Eigen::Vector3f::Zero(), ray)) {
       const auto& scene = context.options.scene;

@@ -59,7 +59,9 @@ void develop_row(const NoiseLevel& level, const float* noise, const Row& balance
   for (std::size_t k = 0; k < value.size(); ++k) {
     const float noisy = balance[k] * (value[k] + std::sqrt(level.read + level.shot * value[k]) * noise[k]);
     const float lit = noisy > 0 ? noisy : 0;
-    step[k] = static_cast<std::int32_t>((lit < 1 ? lit : 1) * kTop + 0.5f);
+    // Never negative, and lround would keep the loop from being vectorised.
+    step[k] =
+        static_cast<std::int32_t>((lit < 1 ? lit : 1) * kTop + 0.5f);  // NOLINT(bugprone-incorrect-roundings)
   }
 }
 
@@ -76,7 +78,7 @@ FrameRenderer::FrameRenderer(LampImages images, const ImageOptions& options, std
     : images_(std::move(images)),
       options_(options),
       seed_(seed),
-      noise_(noise_table(seed, static_cast<std::size_t>(3 * images_.ambient.cols))),
+      noise_(noise_table(seed, 3 * static_cast<std::size_t>(images_.ambient.cols))),
       encoded_(encoding_table(options.response)) {}
 
 /// The sum of a row's light sources, linear, full scale 1.
