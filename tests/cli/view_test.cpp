@@ -12,6 +12,7 @@
 #include "tests/support/bump_stack.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/virtual_screen.h"
 
 namespace rakelight {
 namespace {
@@ -29,6 +30,7 @@ class View : public testing::Test {
   void TearDown() override {
     unsetenv("LIBGL_DRIVERS_PATH");
     unsetenv("MESA_GL_VERSION_OVERRIDE");
+    unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
   }
   test::TemporaryFolder folder_;
   const std::filesystem::path scan_ = folder_ / "scan";
@@ -49,6 +51,33 @@ TEST_F(View, TakesAPictureWithoutADisplayAndSaysHow) {
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("p.png: 160x120, drawn by "));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "p.png"));
+}
+
+TEST_F(View, DrawsInAHiddenWindowWhereThereIsNoEgl) {
+  if (!test::VirtualScreen::is_available()) GTEST_SKIP() << "no Xvfb or no xdotool here";
+  const test::VirtualScreen screen(320, 240);
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null", 1);
+  const auto ran = view({scan_, "--screenshot", folder_ / "p.png", "--size", "160x120"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("drawn by a hidden window on"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "p.png"));
+}
+
+TEST_F(View, FindsTheScanOfAResultForWhatTheResultLacks) {
+  ASSERT_EQ(run({"refine", scan_, "-o", folder_ / "out", "--iterations", "1"}).exit_code, 0);
+  const auto ran =
+      view({folder_ / "out", "--layer", "sensor", "--screenshot", folder_ / "p.png", "--size", "160x120"});
+  if (ran.exit_code == 4) GTEST_SKIP() << "no OpenGL: " << ran.err;
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  std::filesystem::rename(scan_, folder_ / "elsewhere");
+  expect_one_line(view({folder_ / "out", "--layer", "sensor", "--screenshot", folder_ / "p.png"}), 2,
+                  "--stack");
+}
+
+TEST_F(View, RefusesAHalfWrittenResult) {
+  ASSERT_EQ(run({"refine", scan_, "-o", folder_ / "out", "--iterations", "1"}).exit_code, 0);
+  std::filesystem::remove(folder_ / "out/result.json");
+  expect_one_line(view({folder_ / "out", "--screenshot", folder_ / "p.png"}), 3, "is an unfinished result");
 }
 
 TEST_F(View, RefusesAFolderThatIsNeitherScanNorResult) {

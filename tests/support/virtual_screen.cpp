@@ -38,7 +38,7 @@ pid_t start_server(const std::string& screen, const std::string& folder, std::st
   if (server == 0) {
     const std::string number = std::to_string(pipe_ends[1]);
     execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", screen.c_str(), "-fbdir",
-           folder.c_str(), "-nolisten", "tcp", static_cast<char*>(nullptr));
+           folder.c_str(), "-nolisten", "tcp", "-noreset", static_cast<char*>(nullptr));
     _exit(127);
   }
   close(pipe_ends[1]);
@@ -55,12 +55,17 @@ bool VirtualScreen::is_available() {
   return std::system("command -v Xvfb >/dev/null && command -v xdotool >/dev/null") == 0;
 }
 
-VirtualScreen::VirtualScreen(int width, int height) {
+VirtualScreen::VirtualScreen(int width, int height, int dots_an_inch) {
   std::string display;
   const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
   server_ = start_server(screen, folder_.path().string(), display);
   if (display == ":") throw std::runtime_error("Xvfb did not start");
   setenv("DISPLAY", display.c_str(), 1);
+  if (dots_an_inch == 96) return;
+  const std::string resource = "Xft.dpi: " + std::to_string(dots_an_inch);
+  if (std::system(("xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER '" + resource + "'").c_str()) !=
+      0)
+    throw std::runtime_error("xprop failed");
 }
 
 VirtualScreen::~VirtualScreen() {

@@ -20,8 +20,9 @@ class VirtualScreen {
   /// Whether Xvfb and xdotool are installed.
   static bool is_available();
 
+  /// @param dots_an_inch as the desktop says it (Xft.dpi); 96 is a scale of 1, others need xprop
   /// @throws std::runtime_error if it does not start
-  VirtualScreen(int width, int height);
+  VirtualScreen(int width, int height, int dots_an_inch = 96);
   ~VirtualScreen();
   VirtualScreen(const VirtualScreen&) = delete;
   VirtualScreen& operator=(const VirtualScreen&) = delete;

@@ -41,11 +41,13 @@ void* PictureTexture::handle() const {
 void Filmstrip::draw(ViewState& state, const Scene& scene) {
   const float line = ImGui::GetFontSize(), height = 6 * line;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({14.5f * line, size.y - height - 4 * line}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({size.x - 15 * line, height + 3.4f * line}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos({16.7f * line, size.y - height - 4 * line}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize({size.x - 17.3f * line, height + 3.4f * line}, ImGuiCond_FirstUseEver);
   ImGui::Begin("Images", &state.show_frames,
                ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoFocusOnAppearing);
-  if (scene.frames.empty()) ImGui::TextUnformatted("no images here: the scan of this result is not at hand; start with --stack STACK");
+  if (scene.frames.empty())
+    ImGui::TextUnformatted(
+        "no images here: the scan of this result is not at hand; start with --stack STACK");
   while (thumbnails_.size() < scene.frames.size())
     thumbnails_.emplace_back(thumbnail(scene.frames[thumbnails_.size()].picture));
   for (std::size_t i = 0; i < scene.frames.size(); ++i) {

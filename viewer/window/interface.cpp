@@ -7,6 +7,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include "viewer/gl/display_loss.h"
 #include "viewer/window/font.h"
 
 namespace rakelight {
@@ -47,6 +48,7 @@ Interface::~Interface() {
 void Interface::begin_frame() const {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  require_display();  // without one, the window's size that was just asked for is no number
   ImGui::NewFrame();
 }
 

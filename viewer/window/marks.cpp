@@ -35,18 +35,19 @@ void draw_length(const ViewState& state, const ImVec2& a, const ImVec2& b) {
 
 void draw_marks(const ViewState& state, const cv::Size2f& size) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float unit = ImGui::GetFontSize() / 15;
   std::vector<ImVec2> ends;
   for (const Eigen::Vector3d& point : state.points) {
     if (const auto at = on_screen(state, point, size)) ends.push_back(*at);
   }
   if (ends.size() == 2) {
-    list.AddLine(ends[0], ends[1], kEdge, 4);
-    list.AddLine(ends[0], ends[1], kInk, 2);
+    list.AddLine(ends[0], ends[1], kEdge, 4 * unit);
+    list.AddLine(ends[0], ends[1], kInk, 2 * unit);
     draw_length(state, ends[0], ends[1]);
   }
   for (const ImVec2& end : ends) {
-    list.AddCircleFilled(end, 5, kEdge);
-    list.AddCircleFilled(end, 3.5f, kInk);
+    list.AddCircleFilled(end, 5 * unit, kEdge);
+    list.AddCircleFilled(end, 3.5f * unit, kInk);
   }
 }
 

@@ -146,6 +146,7 @@ void ViewerWindow::Impl::save_picture(const cv::Size& size) {
 
 void ViewerWindow::Impl::draw(Detail detail) {
   const cv::Size size = pixels();
+  require_display();         // which may have gone with that question
   if (size.empty()) return;  // minimised
   state.aspect = static_cast<double>(size.width) / size.height;
   const bool taking = state.wants_picture;
@@ -185,6 +186,12 @@ void ViewerWindow::update(Scene scene) {
   impl_->with_its_stack = {};
   impl_->frames_to_draw = kSettlingFrames;
 }
+
+void ViewerWindow::open(const std::filesystem::path& folder) { impl_->events.drop(folder); }
+
+const std::string& ViewerWindow::status() const { return impl_->state.status; }
+
+std::string ViewerWindow::title() const { return impl_->shown ? impl_->shown->scene().title : ""; }
 
 void ViewerWindow::show_pictures(const cv::Mat3b& color, const cv::Mat3b& depth) {
   impl_->with_its_stack = {};

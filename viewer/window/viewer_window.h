@@ -4,6 +4,7 @@
 // The window: events in, pictures out. What they mean is in viewer/commands.h and viewer/mouse.h.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
@@ -25,6 +26,12 @@ class ViewerWindow {
 
   /// The same object, moved on: look and camera stay. @throws as show
   void update(Scene scene);
+
+  /// Shows what is in a folder, as when it is dropped on the window; what cannot be opened the status line says.
+  void open(const std::filesystem::path& folder);
+  const std::string& status() const;
+  /// What is shown; empty while there are pictures or nothing.
+  std::string title() const;
 
   /// Two pictures beside each other instead of a scene: colour and depth as they come from a sensor; either may be empty.
   void show_pictures(const cv::Mat3b& color, const cv::Mat3b& depth);

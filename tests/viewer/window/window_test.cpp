@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "refine/output/result_io.h"
@@ -112,6 +113,25 @@ TEST_F(Window, WritesAPictureOfTheSceneWithoutThePanel) {
   EXPECT_LT(difference(picture(kDrawing), shown), 0.5);
   EXPECT_LT(difference(picture(cv::Rect(780, 0, 20, 600)), picture(cv::Rect(0, 0, 20, 600))), 30)
       << "no panel";
+}
+
+TEST(WindowOnAFineScreen, IsTwiceAsLarge) {
+  if (!test::VirtualScreen::is_available() || std::system("command -v xprop >/dev/null") != 0)
+    GTEST_SKIP() << "no Xvfb, xdotool or xprop here";
+  const test::TemporaryFolder folder;
+  write_result(test::bump_result(), folder / "out");
+  const test::VirtualScreen screen(2 * kWidth, 2 * kHeight, 192);
+  test::RunningProgram viewer({"view", (folder / "out").string(), "--size", "800x600"});
+  const cv::Vec3b background(27, 28, 32);
+  EXPECT_TRUE(screen.wait_for([&](const cv::Mat3b& picture) {
+    return cv::norm(picture(2 * kHeight - 5, 2 * kWidth - 5), background) < 12;
+  })) << "the window fills the screen";
+  const cv::Rect closing_cross(2 * 215, 2 * 8, 2 * 25, 2 * 16);  // right in the panel's title
+  double brightest = 0;
+  cv::minMaxLoc(screen.look_when_still()(closing_cross).reshape(1), nullptr, &brightest);
+  EXPECT_GT(brightest, 150) << "the panel has grown with the letters";
+  screen.key("q");
+  EXPECT_EQ(viewer.wait().exit_code, 0);
 }
 
 TEST_F(Window, QuitsByItsKey) {
