@@ -12,6 +12,8 @@
 #include "refine/steps/lighting.h"
 #include "refine/steps/noise.h"
 #include "refine/steps/robust_weights.h"
+#include "refine/steps/sensor_bound.h"
+#include "refine/steps/smoothness_choice.h"
 #include "refine/steps/depth_step.h"
 
 namespace rakelight {
@@ -116,6 +118,46 @@ void judge_directions(const SurfaceState& state, MethodResult& result) {
       "in different places; for an image under white light use --method fusion-like");
 }
 
+/// How much of options.depth.smoothness the image bears out; 0 where it bears out the start itself.
+double smoothness_share(const RefineProblem& problem, const RefineOptions& options, const CurvaturePrior& curvature,
+                        DepthSolver& solver, MethodResult& result) {
+  if (options.depth.smoothness <= 0) return 1;
+  // lambda_z / lambda_l where the floors of shading_errors hold, as they do on most stacks; the image's error cancels.
+  const double deviation = kSensorCorrelation * problem.depth_noise * problem.grid.camera.fx;
+  const double balance =
+      options.depth.noise_ratio * std::pow(kModelCorrelation / deviation, 2) / options.depth.smoothness;
+  DepthPrior prior = problem.prior;
+  prior.floor /= kFloorPer;
+  const Eigen::Matrix3Xf broad =
+      smoothed(problem.grid, surface_normals(problem.grid, problem.corners, problem.prior.start));
+  const auto choice = choose_smoothness(problem, prior, curvature, solver, broad, balance);
+  if (!choice) return 1;
+  result.quality["smoothness_share"] = choice->share;
+  result.quality["smoothness_gain"] = choice->gain;
+  return choice->share;
+}
+
+void keep_start(const RefineProblem& problem, const std::string& reason, MethodResult& result) {
+  result.state.zeta = problem.prior.start;
+  result.message += "; the smoothed sensor depth is the result";
+  result.warnings.push_back("one image was not enough to improve this depth: " + reason +
+                            "; the result is the sensor's depth, smoothed. Take more images and use --method multi-light");
+}
+
+/// Keeps the surface of one equation a pixel within what the sensor's noise allows.
+void hold_to_sensor(const RefineProblem& problem, double share, MethodResult& result) {
+  constexpr double kMostBeyond = 0.00075;
+  constexpr double kDetailed = 0.2;  // share of the smoothness below which the object has detail of its own,
+  Eigen::VectorXd& zeta = result.state.zeta;
+  const double beyond = result.quality["beyond_noise_share"] = share_beyond_noise(problem, zeta);
+  if (beyond > kMostBeyond) {
+    keep_start(problem, "shading moved it further than the sensor's noise explains", result);
+  } else {
+    // and a large correction takes away that detail rather than noise
+    zeta = bounded_by_noise(problem, zeta, share < kDetailed);
+  }
+}
+
 }  // namespace
 
 MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions& options, ImageLight light,
@@ -129,6 +171,8 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
                           ? make_cholesky_depth_solver(grid, problem.prior.cells)
                           : make_multigrid_depth_solver(grid, problem.prior.cells, kDepthTolerance);
   DepthPrior prior = problem.prior;
+  const double share =
+      light == ImageLight::white ? smoothness_share(problem, options, curvature, *solver, result) : 1;
   ShadingErrors errors;
   const auto fail = [&](const std::string& what, int t) {
     result.termination = Termination::diverged;
@@ -168,8 +212,8 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
         corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
     CurvatureWeights smoothness;
     if (options.depth.smoothness > 0)
-      smoothness =
-          curvature.at(state.zeta, options.depth.smoothness * std::pow(errors.sample * grid.camera.fx, 2));
+      smoothness = curvature.at(state.zeta, share * options.depth.smoothness *
+                                                std::pow(errors.sample * grid.camera.fx, 2));
     const DepthProblem depth{grid, problem.corners, tensors, weights, prior, smoothness};
     const Eigen::VectorXd before = state.zeta;
     const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (12)
@@ -196,6 +240,12 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
   if (result.termination == Termination::max_iterations)
     result.message =
         "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations, still moving";
+  if (light == ImageLight::white) {
+    if (share == 0)
+      keep_start(problem, "the image bears it out better than any smoother one", result);
+    else
+      hold_to_sensor(problem, share, result);
+  }
   state.normals = surface_normals(grid, problem.corners, state.zeta);
   state.points = surface_points(grid, state.zeta);
   if (light == ImageLight::colored) judge_directions(state, result);
