@@ -15,6 +15,7 @@
 #include "refine/steps/sensor_bound.h"
 #include "refine/steps/smoothness_choice.h"
 #include "refine/steps/depth_step.h"
+#include "stack/errors.h"
 
 namespace rakelight {
 namespace {
@@ -105,20 +106,34 @@ std::vector<float> thirds(std::vector<float> weights) {
   return weights;
 }
 
-/// Three slopes of light are needed to tell a normal from the ratios of three channels.
-void judge_directions(const SurfaceState& state, MethodResult& result) {
-  constexpr double kNearlyOneDirection = 0.1;
+/// How far apart the lights of the three channels are: the least singular value of their directions over the largest.
+/// Three in different places are needed to tell a normal from three channels; of one white lamp it is below 0.01.
+double lamp_spread(const SurfaceState& state) {
   const Eigen::Vector3d spread = lamp_singular_values(state.lamps, state.scene);
-  const double ratio = spread[0] > 0 ? spread[2] / spread[0] : 0;
-  result.quality["lamp_spread"] = ratio;
-  if (ratio >= kNearlyOneDirection) return;
-  result.warnings.push_back(
-      "the image's three channels are lit from nearly the same side: rgb-ratio needs red, green and blue "
-      "lamps "
-      "in different places; for an image under white light use --method fusion-like");
+  return spread[0] > 0 ? spread[2] / spread[0] : 0;
 }
 
-/// How much of options.depth.smoothness the image bears out; 0 where it bears out the start itself.
+/// An image under white light would have its paint carved into the shape. What the stack says of its lamps is believed.
+void refuse_white_light(const RefineProblem& problem, const SurfaceState& state) {
+  constexpr double kOneLight = 0.025;
+  if (problem.images.colored_lamps.front() || lamp_spread(state) >= kOneLight) return;
+  throw InputError(problem.origin,
+                   "the three channels of frame " + std::to_string(problem.images.frame_index.front()) +
+                       " are lit from the same side, as by a white lamp, and rgb-ratio needs red, green and blue "
+                       "lamps in different places",
+                   "use --method fusion-like, which takes any one image");
+}
+
+void judge_directions(const SurfaceState& state, MethodResult& result) {
+  constexpr double kNearlyOneDirection = 0.1;
+  result.quality["lamp_spread"] = lamp_spread(state);
+  if (result.quality["lamp_spread"] >= kNearlyOneDirection) return;
+  result.warnings.push_back(
+      "the image's three channels are lit from nearly the same side: rgb-ratio needs red, green and blue lamps in "
+      "different places; set them further apart, or use --method fusion-like");
+}
+
+/// How much of options.depth.smoothness the image bears out.
 double smoothness_share(const RefineProblem& problem, const RefineOptions& options, const CurvaturePrior& curvature,
                         DepthSolver& solver, MethodResult& result) {
   if (options.depth.smoothness <= 0) return 1;
@@ -137,13 +152,6 @@ double smoothness_share(const RefineProblem& problem, const RefineOptions& optio
   return choice->share;
 }
 
-void keep_start(const RefineProblem& problem, const std::string& reason, MethodResult& result) {
-  result.state.zeta = problem.prior.start;
-  result.message += "; the smoothed sensor depth is the result";
-  result.warnings.push_back("one image was not enough to improve this depth: " + reason +
-                            "; the result is the sensor's depth, smoothed. Take more images and use --method multi-light");
-}
-
 /// Keeps the surface of one equation a pixel within what the sensor's noise allows.
 void hold_to_sensor(const RefineProblem& problem, double share, MethodResult& result) {
   constexpr double kMostBeyond = 0.00075;
@@ -151,7 +159,11 @@ void hold_to_sensor(const RefineProblem& problem, double share, MethodResult& re
   Eigen::VectorXd& zeta = result.state.zeta;
   const double beyond = result.quality["beyond_noise_share"] = share_beyond_noise(problem, zeta);
   if (beyond > kMostBeyond) {
-    keep_start(problem, "shading moved it further than the sensor's noise explains", result);
+    zeta = problem.prior.start;
+    result.message += "; the smoothed sensor depth is the result";
+    result.warnings.push_back(
+        "one image was not enough to improve this depth: shading moved it further than the sensor's noise explains, so "
+        "the result is the sensor's depth, smoothed; take more images and use --method multi-light");
   } else {
     // and a large correction takes away that detail rather than noise
     zeta = bounded_by_noise(problem, zeta, share < kDetailed);
@@ -201,6 +213,7 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
     white.normals = broad.normals;
     white.lamps = state.lamps = estimate_far_lamps(white_image, white);
     white.normals = state.normals;
+    if (light == ImageLight::colored && t == kSmoothFits) refuse_white_light(problem, state);
 
     errors = shading_errors(problem, options, white_image, white);
     const double weight = sensor_weight(options.depth, errors);
@@ -240,12 +253,7 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
   if (result.termination == Termination::max_iterations)
     result.message =
         "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations, still moving";
-  if (light == ImageLight::white) {
-    if (share == 0)
-      keep_start(problem, "the image bears it out better than any smoother one", result);
-    else
-      hold_to_sensor(problem, share, result);
-  }
+  if (light == ImageLight::white) hold_to_sensor(problem, share, result);
   state.normals = surface_normals(grid, problem.corners, state.zeta);
   state.points = surface_points(grid, state.zeta);
   if (light == ImageLight::colored) judge_directions(state, result);

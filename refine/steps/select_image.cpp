@@ -59,6 +59,7 @@ std::optional<SelectedImage> composed(const LightStack& stack, const Observation
                        image_lit(stack, images, LampColor::blue)};
   if (!lit[0] || !lit[1] || !lit[2]) return std::nullopt;
   SelectedImage result{only(images, *lit[0]), "frames"};
+  result.image.colored_lamps = {true};
   for (int c = 0; c < 3; ++c) {
     const int i = *lit[static_cast<size_t>(c)];
     std::copy_n(images.channel(i, c), images.pixels,

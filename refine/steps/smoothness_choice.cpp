@@ -36,7 +36,7 @@ bool smooth_sensor(const PixelGrid& grid, const DepthPrior& prior, const Curvatu
 /// same. Where the image hardly tells at all, the best.
 SmoothnessChoice most_careful(const std::array<double, kShares.size()>& gains, int pixels) {
   const double best = *std::max_element(gains.begin(), gains.end());
-  if (best <= 0) return {0, best};
+  if (best <= 0) return {kShares.back(), gains.back()};  // the object's detail stands out from the noise
   const double enough = best > kTelling ? best * std::max(0.5, 1 - kSlack / std::sqrt(pixels)) : best;
   size_t k = gains.size() - 1;
   while (gains[k] < enough) --k;

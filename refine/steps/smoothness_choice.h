@@ -15,7 +15,7 @@
 namespace rakelight {
 
 struct SmoothnessChoice {
-  double share = 1;  ///< of the smoothness given; 0: the image supports the start itself more than any of them
+  double share = 1;  ///< of the smoothness given, from 0.03 to 1
   double gain = 0;   ///< 1 - disagreement of the chosen surface / that of the start
 };
 
