@@ -14,19 +14,16 @@
 #include "capture/open_rig.h"
 #include "capture/rig_file.h"
 #include "capture/scan_folder.h"
+#include "capture/virtual_sensor.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "cli/scan_view.h"
 #include "refine/output/result_io.h"
 #include "refine/refine.h"
 #include "stack/errors.h"
 #include "stack/stack_io.h"
-
-#ifdef RAKELIGHT_HAS_SIMULATE
-#include "capture/virtual_sensor.h"
-#include "simulate/virtual_sensor/virtual_scene.h"
 #include "stack/truth_io.h"
-#endif
 
 namespace rakelight::cli {
 namespace {
@@ -35,6 +32,7 @@ namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
 constexpr int kNotConverged = 7;
+constexpr double kFirstImage = 0.4;  ///< of the progress: from there on frames say which lamp they show
 
 struct Arguments {
   fs::path rig, output, refined;
@@ -42,30 +40,40 @@ struct Arguments {
   std::optional<int> repeats;
   std::optional<bool> rgb_shot;
   int depth_frames = 2;
-  bool resume = false, no_metering = false, json = false;
+  bool resume = false, no_metering = false, view = false, json = false;
 };
 
 constexpr const char* kFooter = R"(Examples:
   rakelight scan -o my-scan                                  the virtual rig: no hardware needed
   rakelight scan --rig my-rig.toml -o my-scan --mask auto    a sensor and lamps, the object found by itself
   rakelight scan --rig my-rig.toml -o my-scan --refine out   and refined while the lamps are off
+  rakelight scan -o my-scan --refine out --view              and watched: the lamps at work, then the surface
   rakelight scan --rig my-rig.toml -o my-scan --resume       go on with a scan that was cut off
   rakelight scan -o my-scan --json | jq .faults              what is wrong with the lamps
 
-A scan that is interrupted (130) or loses its sensor (4) switches the lamps off and keeps the images it has.)";
+A scan that is interrupted (130; closing the window of --view does it, too) or loses its sensor (4) switches the lamps off and keeps the images it has.)";
 
 Rig rig_of(const Arguments& arguments) {
-  return arguments.rig.empty() ? virtual_rig() : read_rig(arguments.rig);
+  Rig rig = arguments.rig.empty() ? virtual_rig() : read_rig(arguments.rig);
+  if (!is_recording(rig)) return rig;
+  throw UsageError("scan: the sensor of " + arguments.rig.string() + " is the recording " + rig.sensor.uri +
+                   ", which no lamp changes any more; refine a stack as it is, and turn an .oni file into one with "
+                   "'rakelight import oni'");
 }
 
-ScanOptions options_of(const Arguments& arguments, ScanFolder& folder) {
+std::string lamp_text(const Frame& frame) { return frame.light ? "lamp " + *frame.light : "no lamp"; }
+
+ScanOptions options_of(const Arguments& arguments, ScanFolder& folder, const ScanView& view) {
   ScanOptions options;
   options.repeats = arguments.repeats;
   options.rgb_shot = arguments.rgb_shot;
   options.depth_frames = arguments.depth_frames;
   options.meter = !arguments.no_metering;
   options.resume = folder.unfinished();
-  options.on_frame = [&folder](const ScanState& state, const Frame& frame) { folder.record(state, frame); };
+  options.on_frame = [&folder, &view](const ScanState& state, const Frame& frame) {
+    folder.record(state, frame);
+    view.say("scanning: " + lamp_text(frame));
+  };
   return options;
 }
 
@@ -79,16 +87,28 @@ std::string kept(ScanFolder& folder, const Arguments& arguments) {
          ": complete the scan with 'rakelight scan" + rig + " -o " + arguments.output.string() + " --resume'";
 }
 
-ScanResult scan_with_bar(const Rig& rig, const Arguments& arguments, ScanFolder& folder) {
+struct Scanned {
+  ScanResult scan;
+  std::optional<GroundTruth> truth;  ///< what a virtual sensor looked at
+};
+
+/// @param lights given back as soon as the scan is over, whatever follows
+Scanned scan_with_bar(const Rig& rig, const std::unique_ptr<Lights> lights, const Arguments& arguments,
+                      ScanFolder& folder, const ScanView& view) {
   ProgressBar bar;
-  const auto show = [&bar](const ScanProgress& progress) {
+  const auto show = [&](const ScanProgress& progress) {
     bar.show({progress.stage, progress.fraction_done});
-    return !interrupted();
+    if (progress.fraction_done < kFirstImage) view.say(progress.stage);
+    return !interrupted() && !view.closed();
   };
   try {
-    const auto lights = open_lights(rig);  // first: it forks the lamps' guard, before there are threads
-    const auto source = open_frame_source(rig);
-    return capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder), show);
+    const auto source =
+        view.watched(open_frame_source(rig), rig.calibration.color_response.value_or(ColorResponse()));
+    Scanned scanned{capture_stack({*source, *lights, monotonic_clock()}, rig,
+                                  options_of(arguments, folder, view), show),
+                    {}};
+    if (rig.virtual_rig) scanned.truth = virtual_truth(rig);
+    return scanned;
   } catch (const Cancelled&) { throw Cancelled(kept(folder, arguments)); } catch (const SensorLost& lost) {
     throw DeviceError(std::string(lost.what()) + "; " + kept(folder, arguments));
   }
@@ -101,23 +121,18 @@ void put_mask(LightStack& stack, const std::string& mask) {
     spdlog::warn("scan: no object stands out in depth and light, so the stack has no mask");
 }
 
-/// What the virtual sensor looked at, for `evaluate`, beside the images.
-void write_virtual_truth(const Rig& rig, const fs::path& stack) {
-#ifdef RAKELIGHT_HAS_SIMULATE
-  if (!rig.virtual_rig) return;
-  const VirtualSensorSetup setup = parse_virtual_setup(virtual_sensor_text(rig));
+/// For `evaluate`, beside the images.
+void write_truth_of(const fs::path& stack, const GroundTruth& truth) {
   fs::create_directories(stack / "truth");
-  write_truth(VirtualScene(setup).truth(setup.color_size), stack / "truth");
-#else
-  (void)rig, (void)stack;
-#endif
+  write_truth(truth, stack / "truth");
 }
 
-RefineResult refine_with_bar(const LightStack& stack) {
+RefineResult refine_with_bar(const LightStack& stack, ScanView& view) {
   ProgressBar bar;
-  return refine_depth(stack, RefineOptions(), [&bar](const Progress& progress) {
+  return refine_depth(stack, RefineOptions(), [&](const Progress& progress) {
     bar.show(progress);
-    return !interrupted();
+    view.show(progress);
+    return !interrupted() && !view.closed();
   });
 }
 
@@ -163,10 +178,10 @@ void print_report(const ScanResult& scan, const Arguments& arguments) {
   std::fflush(stdout);
 }
 
-int refine_and_write(const LightStack& stack, const Arguments& arguments, json& report) {
-  const RefineResult result = refine_with_bar(stack);
+int refine_and_write(const LightStack& stack, const Arguments& arguments, json& report, ScanView& view) {
+  const RefineResult result = refine_with_bar(stack, view);
   for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
-  write_result(result, arguments.refined);
+  write_result(result, arguments.refined, &stack);
   report["refined"] = arguments.refined.string();
   report["refined_message"] = result.message;
   if (!arguments.json) {
@@ -176,20 +191,32 @@ int refine_and_write(const LightStack& stack, const Arguments& arguments, json& 
   return result.termination == Termination::diverged ? kNotConverged : 0;
 }
 
+int scan_and_refine(const Rig& rig, std::unique_ptr<Lights> lights, const Arguments& arguments,
+                    ScanView& view) {
+  ScanFolder folder(arguments.output, arguments.resume);
+  auto [scan, truth] = scan_with_bar(rig, std::move(lights), arguments, folder, view);
+  scan.stack.origin = arguments.output.string();
+  put_mask(scan.stack, arguments.mask);
+  folder.finish(scan.stack);
+  if (truth) write_truth_of(arguments.output, *truth);
+  for (const std::string& warning : scan.warnings) spdlog::warn("scan: {}", warning);
+  if (!arguments.json) print_report(scan, arguments);
+  json report = report_json(scan, arguments);
+  const int exit_code = arguments.refined.empty() ? 0 : refine_and_write(scan.stack, arguments, report, view);
+  if (arguments.json) std::cout << report.dump(2) << std::endl;
+  view.show(arguments.output, arguments.refined);
+  return exit_code;
+}
+
 int run(const Arguments& arguments) {
   catch_interrupts();
   const Rig rig = rig_of(arguments);
   if (!arguments.refined.empty()) check_result_folder(arguments.refined);
-  ScanFolder folder(arguments.output, arguments.resume);
-  ScanResult scan = scan_with_bar(rig, arguments, folder);
-  put_mask(scan.stack, arguments.mask);
-  folder.finish(scan.stack);
-  write_virtual_truth(rig, arguments.output);
-  for (const std::string& warning : scan.warnings) spdlog::warn("scan: {}", warning);
-  if (!arguments.json) print_report(scan, arguments);
-  json report = report_json(scan, arguments);
-  const int exit_code = arguments.refined.empty() ? 0 : refine_and_write(scan.stack, arguments, report);
-  if (arguments.json) std::cout << report.dump(2) << "\n";
+  auto lights = open_lights(rig);  // first: it forks the lamps' guard, before there are threads
+  ScanView nobody;
+  if (!arguments.view) return scan_and_refine(rig, std::move(lights), arguments, nobody);
+  int exit_code = 0;
+  run_in_view([&](ScanView& view) { exit_code = scan_and_refine(rig, std::move(lights), arguments, view); });
   return exit_code;
 }
 
@@ -221,6 +248,8 @@ void add_scan_command(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(1, 8));
   command->add_flag("--no-metering", arguments->no_metering,
                     "Take the rig file's exposure and gain as they are");
+  command->add_flag("--view", arguments->view,
+                    "A window: colour and depth while lamps switch, then the surface as it is refined");
   command->add_flag("--json", arguments->json, "Print one JSON object on stdout and nothing else there");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

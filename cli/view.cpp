@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFooter = R"(Examples:
   rakelight view my-surface                                  turn a result under a raking light; F1 shows the keys
-  rakelight view my-surface --stack my-scan                  with the scan's images, raw depth and truth
+  rakelight view my-surface --stack my-scan                  with its scan, which was moved since
   rakelight view my-scan                                     a scan before it is refined
   rakelight view my-surface --screenshot surface.png         a picture, without a display
   rakelight view my-surface --split --screenshot both.png    before | after
@@ -104,6 +104,13 @@ ViewPoint view_of(const Arguments& arguments) {
   return view;
 }
 
+/// Whether it shows what a result does not hold; the window reads that later, when it stands.
+bool wants_stack(const Look& look) {
+  const auto of_scan = [](LayerKind kind) { return kind == LayerKind::sensor || kind == LayerKind::truth; };
+  return of_scan(look.layer) || (look.split && of_scan(look.before)) || look.coloring == Coloring::image ||
+         look.coloring == Coloring::error;
+}
+
 void run(const Arguments& arguments) {
   const cv::Size size = size_of(arguments);
   if (!arguments.screenshot.empty() && arguments.screenshot.extension() != ".png")
@@ -111,6 +118,7 @@ void run(const Arguments& arguments) {
                      arguments.screenshot.string() + "'");
   Scene scene = open_scene(arguments.source);
   const Look look = look_of(arguments, default_look(scene));
+  if (!scene.stack.empty() && wants_stack(look)) scene = with_stack(scene);
   if (arguments.screenshot.empty())
     return run_viewer(std::move(scene), look, view_of(arguments), {size, !arguments.light.has_value()});
   const PictureOptions picture{arguments.screenshot, size, arguments.turntable.value_or(0),
@@ -128,7 +136,9 @@ void add_view_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("view", "Look at a scan or a result, or take a picture of it");
   command->footer(kFooter);
   command->add_option("FOLDER", arguments->source.folder, "Stack, source folder or result")->required();
-  command->add_option("--stack", arguments->source.stack, "The scan a result was made from")
+  command
+      ->add_option("--stack", arguments->source.stack,
+                   "The scan a result was made from; default: where result.json says, if it is still there")
       ->type_name("STACK");
   command
       ->add_option("--screenshot", arguments->screenshot,

@@ -7,11 +7,12 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "refine/output/error_map.h"
+
 namespace rakelight {
 namespace {
 
 const cv::Vec3b kNoValue(90, 90, 90);
-const cv::Vec3d kMinus(33, 102, 172), kZero(247, 247, 247), kPlus(178, 24, 43);
 
 const std::array<cv::Vec3b, 256>& viridis() {
   static const std::array<cv::Vec3b, 256> table = [] {
@@ -48,8 +49,7 @@ cv::Vec3b color_of(const ColorRange& range, double value) {
   const double share = std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
   if (range.scale == ColorScale::sequential)
     return viridis()[static_cast<std::size_t>(std::lround(share * 255))];
-  const double side = 2 * share - 1;
-  return kZero + std::abs(side) * ((side < 0 ? kMinus : kPlus) - kZero);
+  return signed_color(static_cast<float>(2 * share - 1));
 }
 
 double round_up(double value) {
@@ -80,7 +80,8 @@ ColorRange sequential_range(const std::vector<float>& values, const std::string&
 
 std::vector<double> ticks(const ColorRange& range) {
   constexpr int kMost = 6;
-  const double step = round_up((range.high - range.low) / kMost);
+  const bool is_signed = range.scale == ColorScale::signed_;  // whose ends are round themselves
+  const double step = is_signed ? range.high / 2 : round_up((range.high - range.low) / kMost);
   std::vector<double> marks;
   const double first = std::ceil(range.low / step - 1e-9), last = std::floor(range.high / step + 1e-9);
   for (double k = first; k <= last; ++k) marks.push_back(k * step + 0.0);

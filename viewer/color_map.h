@@ -12,7 +12,7 @@ namespace rakelight {
 
 enum class ColorScale {
   sequential,  ///< viridis: from low to high, even in lightness
-  signed_,     ///< blue (minus), white (0), red (plus), as error_map
+  signed_,     ///< blue (minus), white (0), red (plus): signed_color() of refine
 };
 
 /// What a scale bar shows.

@@ -1,32 +1,40 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <utility>
+
 #include "viewer/color_map.h"
 #include "viewer/live_view.h"
 
 namespace rakelight {
 
-void LiveFeed::show_color(const cv::Mat3b& color, const std::string& status) {
+void LiveFeed::show_color(const cv::Mat3b& color) {
   const cv::Mat3b copy = color.clone();
   const std::lock_guard<std::mutex> lock(mutex_);
   news_.color = copy;
-  news_.status = status;
-  news_.any = true;
 }
 
 void LiveFeed::show_depth(const cv::Mat1w& depth, double depth_unit_m) {
-  const cv::Mat3b colors = depth_colors(depth, depth_unit_m);
+  const cv::Mat1w copy = depth.clone();
   const std::lock_guard<std::mutex> lock(mutex_);
-  news_.depth = colors;
-  news_.any = true;
+  news_.depth = copy;
+  news_.depth_unit_m = depth_unit_m;
 }
 
-void LiveFeed::show_surface(const Camera& camera, const cv::Mat1f& depth, const std::string& status) {
+void LiveFeed::show_surface(const Camera& camera, const cv::Mat1f& depth) {
   const cv::Mat1f copy = depth.clone();
   const std::lock_guard<std::mutex> lock(mutex_);
   news_.camera = camera;
   news_.surface = copy;
+}
+
+void LiveFeed::show_scene(Scene scene) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  news_.scene = std::move(scene);
+}
+
+void LiveFeed::say(const std::string& status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   news_.status = status;
-  news_.any = true;
 }
 
 bool LiveFeed::is_watched() const {
@@ -36,9 +44,7 @@ bool LiveFeed::is_watched() const {
 
 LiveFeed::News LiveFeed::take() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  News news = news_;
-  news_ = {};
-  return news;
+  return std::exchange(news_, {});
 }
 
 void LiveFeed::stop_watching() {

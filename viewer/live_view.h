@@ -4,8 +4,8 @@
 // A window on work in progress: the frames of a scan while lamps switch, then the surface as it is refined.
 //
 //     show_live("scan", size, [&](LiveFeed& feed) {
-//       stack  = capture_stack(..., [&](const SensorFrame& f) { feed.show_color(f.image, "lamp 3"); });
-//       result = refine_depth(stack, options, [&](const Progress& p) { feed.show_surface(camera, depth, "iteration 4"); ... });
+//       stack  = capture_stack(..., [&](const SensorFrame& f) { feed.show_color(f.image); });
+//       result = refine_depth(stack, options, [&](const Progress& p) { feed.show_surface(camera, depth); ... });
 //     });
 #pragma once
 
@@ -16,28 +16,35 @@
 #include <string>
 
 #include "stack/stack.h"
+#include "viewer/scene.h"
 
 namespace rakelight {
 
 /// Takes what there is to see from the working thread; the window shows the latest. Any thread may call it.
 class LiveFeed {
  public:
-  /// @param color CV_8UC3, R G B, as it is to be seen; copied  @param status one line, e.g. the lamp that is lit
-  void show_color(const cv::Mat3b& color, const std::string& status);
+  /// @param color CV_8UC3, R G B, as it is to be seen; copied
+  void show_color(const cv::Mat3b& color);
   /// @param depth raw sensor units, 0 = no reading; copied
   void show_depth(const cv::Mat1w& depth, double depth_unit_m);
   /// From then on the window shows the surface. @param depth metres, NaN where there is none; copied
-  void show_surface(const Camera& camera, const cv::Mat1f& depth, const std::string& status);
-  /// False once the person has closed the window: the work may go on.
+  void show_surface(const Camera& camera, const cv::Mat1f& depth);
+  /// What the work has come to, instead of the surface so far.
+  void show_scene(Scene scene);
+  /// One line, e.g. the lamp that is lit.
+  void say(const std::string& status);
+  /// False once the person has closed the window: whether the work goes on is for it to decide.
   bool is_watched() const;
 
   /// What arrived since the last call, for the window.
   struct News {
-    cv::Mat3b color, depth;  ///< depth as colours
-    std::optional<Camera> camera;
+    cv::Mat3b color;
+    cv::Mat1w depth;
+    double depth_unit_m = 0;
+    std::optional<Camera> camera;  ///< of the surface
     cv::Mat1f surface;
+    std::optional<Scene> scene;
     std::string status;
-    bool any = false;
   };
   News take();
   void stop_watching();
@@ -51,11 +58,13 @@ class LiveFeed {
 /// Depth as colours for the eye: the 1st to the 99th percentile as near to far, black without a reading.
 cv::Mat3b depth_colors(const cv::Mat1w& depth, double depth_unit_m);
 
-/// Runs `work` in a second thread and the window in this one (the main thread: window systems want that). Closing the
-/// window does not stop the work. Returns when the work is done and the window is closed, or when the work throws.
-/// @param stay keep the window open when the work is done
-/// @throws std::system_error without a display or OpenGL 3.3, before the work begins; what `work` throws
+/// Runs `work` in a second thread and the window in this one (the main thread: window systems want that). Returns when
+/// the work is done and the window is closed, or when the work throws. Whatever ends the window (closed, failed, its
+/// display gone), the work hears of it by is_watched() and is waited for.
+/// @param keep_open asked while the window still stands after the work is done; empty: until it is closed
+/// @throws std::system_error without a display or OpenGL 3.3, before the work begins, or when the display goes away;
+///         what `work` throws
 void show_live(const std::string& title, const cv::Size& size, const std::function<void(LiveFeed&)>& work,
-               bool stay = true);
+               const std::function<bool()>& keep_open = {});
 
 }  // namespace rakelight

@@ -126,6 +126,7 @@ void add_result(Scene& scene, const fs::path& folder) {
   scene.uncertainty = result.uncertainty;
   scene.iterations = result.iterations;
   scene.message = result.message;
+  scene.stack = result.stack;
 }
 
 }  // namespace
@@ -148,8 +149,22 @@ Scene open_scene(const SceneSource& source) {
     return scene;
   }
   add_result(scene, source.folder);
-  if (!source.stack.empty()) add_stack(scene, source.stack);
+  if (source.stack.empty()) return scene;
+  scene.stack.clear();
+  add_stack(scene, source.stack);
   return scene;
+}
+
+Scene with_stack(const Scene& scene) {
+  Scene more = scene;
+  more.stack.clear();
+  try {
+    add_stack(more, scene.stack);
+  } catch (const std::exception&) {  // moved, changed or cut since: the result can do without
+    more = scene;
+    more.stack.clear();
+  }
+  return more;
 }
 
 }  // namespace rakelight

@@ -5,6 +5,7 @@
 // viewer/look.h.
 #pragma once
 
+#include <filesystem>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -45,6 +46,8 @@ struct Scene {
   std::vector<FramePicture> frames;
   std::vector<IterationReport> iterations;
   std::string message;  ///< how the refinement ended
+  std::filesystem::path
+      stack;  ///< of a result whose scan is there and not yet loaded (with_stack()); else empty
 
   /// The layer of that kind, or null.
   const Layer* find(LayerKind kind) const;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "refine/depth_normals.h"
+#include "refine/output/mesh.h"
 #include "refine/output/triangulate.h"
 #include "stack/errors.h"
 
@@ -78,8 +80,13 @@ Surface surface_of(const Layer& layer, const std::string& subject) {
       surface.pixels.emplace_back(x, y);
     }
   }
+  auto coarse = std::async(std::launch::async, [&] {
+    const int stride = stride_for(layer.depth, kCoarsePoints);
+    surface.bounds = bounds_of(surface.positions);
+    if (stride > 1) surface.coarse_triangles = triangulate(layer.camera, layer.depth, index, stride);
+  });
   surface.triangles = triangulate(layer.camera, layer.depth, index);
-  surface.bounds = bounds_of(surface.positions);
+  coarse.get();
   return surface;
 }
 

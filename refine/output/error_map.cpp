@@ -12,14 +12,7 @@
 namespace rakelight {
 namespace {
 
-const cv::Vec3f kTooNear(33, 102, 172), kRight(247, 247, 247), kTooFar(178, 24, 43);
-
-/// @param share of the range, -1 to 1
-cv::Vec3b color_of(float share) {
-  const float s = std::clamp(share, -1.0f, 1.0f);
-  const cv::Vec3f color = kRight + std::abs(s) * ((s < 0 ? kTooNear : kTooFar) - kRight);
-  return cv::Vec3b(color);
-}
+const cv::Vec3f kMinus(33, 102, 172), kZero(247, 247, 247), kPlus(178, 24, 43);
 
 /// Millimetres, NaN where either is missing.
 cv::Mat1f errors_mm(const cv::Mat1f& depth, const cv::Mat1f& truth) {
@@ -34,6 +27,12 @@ void write(cv::Mat3b& picture, const std::string& text, int x) {
 }
 
 }  // namespace
+
+cv::Vec3b signed_color(float share) {
+  const float s = std::clamp(share, -1.0f, 1.0f);
+  const cv::Vec3f color = kZero + std::abs(s) * ((s < 0 ? kMinus : kPlus) - kZero);
+  return cv::Vec3b(color);
+}
 
 double round_range(const cv::Mat1f& values, double share) {
   std::vector<float> sizes;
@@ -55,7 +54,7 @@ cv::Mat3b error_colors(const cv::Mat1f& errors, double range) {
   cv::Mat3b picture(errors.size(), cv::Vec3b::all(0));
   for (int y = 0; y < errors.rows; ++y) {
     for (int x = 0; x < errors.cols; ++x) {
-      if (std::isfinite(errors(y, x))) picture(y, x) = color_of(errors(y, x) / static_cast<float>(range));
+      if (std::isfinite(errors(y, x))) picture(y, x) = signed_color(errors(y, x) / static_cast<float>(range));
     }
   }
   return picture;
@@ -74,7 +73,7 @@ cv::Mat3b error_scale(int width, double range_mm) {
   cv::Mat3b picture(kHeight, width, cv::Vec3b::all(0));
   for (int x = 0; x < width; ++x) {
     const float share = 2 * static_cast<float>(x) / static_cast<float>(std::max(1, width - 1)) - 1;
-    picture(cv::Rect(x, 0, 1, kBar)).setTo(color_of(share));
+    picture(cv::Rect(x, 0, 1, kBar)).setTo(signed_color(share));
   }
   char text[32];
   std::snprintf(text, sizeof text, "%g mm", range_mm);

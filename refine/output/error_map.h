@@ -8,6 +8,10 @@
 
 namespace rakelight {
 
+/// The colour of signed values, in pictures, plots and the viewer alike: from blue (-1 and below) over white (0) to red (1
+/// and above). R, G, B. @param share of the range
+cv::Vec3b signed_color(float share);
+
 /// The first of 1, 2 or 5 times a power of ten (at least 0.001) that this share of the absolute values does not exceed;
 /// NaN does not count.
 double round_range(const cv::Mat1f& values, double share);

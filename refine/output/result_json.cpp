@@ -84,6 +84,12 @@ Json json_of(const std::optional<ResponseEstimate>& estimate) {
           {"message", estimate->message}};
 }
 
+/// @return null where the place is not known
+Json json_of(const std::optional<StackPlace>& stack) {
+  if (!stack) return nullptr;
+  return {{"relative", stack->relative.string()}, {"absolute", stack->absolute.string()}};
+}
+
 Json versions() {
   const auto eigen = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                      std::to_string(EIGEN_MINOR_VERSION);
@@ -107,12 +113,13 @@ std::string to_string(Termination termination) {
   return "unknown";
 }
 
-std::string result_json(const RefineResult& result) {
+std::string result_json(const RefineResult& result, const std::optional<StackPlace>& stack) {
   const Json json = {{"format", kResultFormat},
                      {"version", kResultVersion},
                      {"termination", to_string(result.termination)},
                      {"message", result.message},
                      {"warnings", result.warnings},
+                     {"stack", json_of(stack)},
                      {"camera", camera_json(result.camera)},
                      {"scale", result.scale},
                      {"depth_png_unit_m", depth_unit(result.depth)},

@@ -33,6 +33,7 @@ class Triangulation {
     }
   }
 
+  void expect(std::size_t triangles) { triangles_.reserve(triangles); }
   std::vector<std::array<int, 3>> take() { return std::move(triangles_); }
 
  private:
@@ -62,6 +63,7 @@ class Triangulation {
 std::vector<std::array<int, 3>> triangulate(const Camera& camera, const cv::Mat1f& depth,
                                             const cv::Mat1i& vertex_index, int stride) {
   Triangulation triangulation(camera, depth, vertex_index, stride);
+  triangulation.expect(2 * depth.total() / static_cast<std::size_t>(stride * stride));
   for (int y = 0; y + stride < depth.rows; y += stride) {
     for (int x = 0; x + stride < depth.cols; x += stride) triangulation.add_square(x, y);
   }

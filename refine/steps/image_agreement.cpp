@@ -11,8 +11,8 @@ namespace {
 
 constexpr float kHalf = 0.05f;  // difference of logarithms that is more likely paint than shading
 constexpr int kLightFits = 10;
-constexpr float kDim = 0.1f;      // of the median: below, a shading's logarithm says more of the light's error
-constexpr float kDarkest = 0.02f; // of the brightest: below, an image's logarithm says more of noise
+constexpr float kDim = 0.1f;  // of the median: below, a shading's logarithm says more of the light's error
+constexpr float kDarkest = 0.02f;  // of the brightest: below, an image's logarithm says more of noise
 
 float median_of(std::vector<float> values) {
   if (values.empty()) return 0;
@@ -22,7 +22,8 @@ float median_of(std::vector<float> values) {
 }
 
 /// S = s . (n, 1) fitted to the grey image by iteratively reweighted least squares: paint is what does not fit.
-Eigen::Vector4f fit_light(const std::vector<int>& usable, const Eigen::VectorXf& grey, const Eigen::Matrix3Xf& normals) {
+Eigen::Vector4f fit_light(const std::vector<int>& usable, const Eigen::VectorXf& grey,
+                          const Eigen::Matrix3Xf& normals) {
   std::vector<float> weight(usable.size(), 1.0f), sizes(usable.size());
   Eigen::Vector4f light = Eigen::Vector4f::Zero();
   for (int k = 0; k < kLightFits; ++k) {
@@ -45,8 +46,8 @@ Eigen::Vector4f fit_light(const std::vector<int>& usable, const Eigen::VectorXf&
 
 }  // namespace
 
-ImageAgreement::ImageAgreement(const PixelGrid& grid, const Observations& image, const Eigen::Matrix3Xf& broad_normals,
-                               int lag)
+ImageAgreement::ImageAgreement(const PixelGrid& grid, const Observations& image,
+                               const Eigen::Matrix3Xf& broad_normals, int lag)
     : log_image_(image.pixels) {
   Eigen::VectorXf grey(image.pixels);
   std::vector<int> usable;

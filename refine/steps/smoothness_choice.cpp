@@ -14,12 +14,13 @@ namespace {
 constexpr std::array kShares{1.0, 0.3, 0.1, 0.03};
 constexpr int kPasses = 2;  // the second with edges where the first found them
 constexpr int kLag = 6;     // depth pixels: neighbours would judge the finest detail alone
-constexpr double kSlack = 32;       // over the root of the pixels: share of the best's gain that chance accounts for
-constexpr double kTelling = 0.01;   // gain below which shares are not told apart
+constexpr double kSlack =
+    32;  // over the root of the pixels: share of the best's gain that chance accounts for
+constexpr double kTelling = 0.01;  // gain below which shares are not told apart
 
 /// The minimum of sum w (K zeta - target)^2 + smoothness |D2 zeta|^2. @return false when singular
-bool smooth_sensor(const PixelGrid& grid, const DepthPrior& prior, const CurvaturePrior& curvature, double smoothness,
-                   DepthSolver& solver, Eigen::VectorXd& zeta) {
+bool smooth_sensor(const PixelGrid& grid, const DepthPrior& prior, const CurvaturePrior& curvature,
+                   double smoothness, DepthSolver& solver, Eigen::VectorXd& zeta) {
   for (int pass = 0; pass < kPasses; ++pass) {
     DepthSystem system(grid.size());
     add_prior(prior, zeta, system);

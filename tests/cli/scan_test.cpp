@@ -11,6 +11,7 @@
 
 #include "capture/rig.h"
 #include "stack/stack_io.h"
+#include "tests/cli/small_virtual_rig.h"
 #include "tests/support/file_edits.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -24,13 +25,15 @@ using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
-/// The example file of the virtual rig with small pictures, so that rendering and refining take no time.
-fs::path small_virtual_rig(const TemporaryFolder& home) {
-  const fs::path rig = home / "rig.toml";
-  set_text(rig, text_of(fs::path(RAKELIGHT_SOURCE_DIR) / "hw/rigs/virtual.toml"));
+/// The same with a calibration of its own, so that the sensor's registration stays off: its depth camera stands 25 mm to the
+/// right of the colour camera.
+fs::path unregistered_rig(const TemporaryFolder& home) {
+  const fs::path rig = small_virtual_rig(home);
   for (const std::string stream : {"color", "depth"})
-    replace_in_file(rig, stream + " = { width = 640, height = 480",
-                    stream + " = { width = 320, height = 240");
+    replace_in_file(rig, stream + " = { width = 320, height = 240",
+                    stream + " = { width = 160, height = 120");
+  set_text(rig,
+           text_of(rig) + "T_color_depth = [[1, 0, 0, 0.025], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n");
   return rig;
 }
 
@@ -55,9 +58,7 @@ std::size_t images_so_far(const fs::path& folder) {
   if (!fs::exists(folder / "scan.json")) return 0;
   std::size_t count = 0;
   const json state = json::parse(text_of(folder / "scan.json"));
-  for (const json& frame : state["frames"]) {
-    count += frame.contains("color") ? 1U : 0U;
-  }
+  for (const json& frame : state["frames"]) { count += frame.contains("color") ? 1U : 0U; }
   return count;
 }
 
@@ -73,6 +74,31 @@ TEST(Scan, WritesAStackThatVerifiesWithItsTruthAndRefinesIt) {
   EXPECT_TRUE(fs::exists(home / "out/before_after.png"));
   const Ran evaluated = run({"evaluate", home / "out", "--truth", home / "scan", "--json"});
   EXPECT_EQ(evaluated.exit_code, 0) << evaluated.err;
+}
+
+TEST(Scan, DepthThatTheSensorDoesNotRegisterIsRefinedByTheRigsCalibration) {
+  const TemporaryFolder home;
+  const Ran ran = run({"scan", "--rig", unregistered_rig(home), "-o", home / "scan", "--mask", "auto",
+                       "--refine", home / "out"});
+  ASSERT_TRUE(ran.exit_code == 0 || ran.exit_code == 7) << ran.err;
+  EXPECT_DOUBLE_EQ(read_stack(home / "scan").T_color_depth(0, 3), 0.025);
+  const Ran evaluated = run({"evaluate", home / "out", "--truth", home / "scan", "--json"});
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
+  const json errors = json::parse(evaluated.out);
+  // Registered by the device: 2.4 mm and 8.0 degrees; with the baseline's sign the wrong way round: 21 mm, 16.5 degrees.
+  EXPECT_LT(errors["rmse_mm"], 5);
+  EXPECT_LT(errors["median_deg"], 11);
+}
+
+TEST(Scan, RefusesARecordingAsItsSensorBeforeItTouchesALamp) {
+  const TemporaryFolder home;
+  fs::create_directory(home / "old-scan");
+  set_text(home / "rig.toml", "[sensor]\nuri = \"" + (home / "old-scan").string() +
+                                  "\"\n[[lamps]]\nid = \"a\"\nchip = \"no such chip\"\noffset = 0\n");
+  const Ran ran = run({"scan", "--rig", home / "rig.toml", "-o", home / "scan"});
+  EXPECT_EQ(ran.exit_code, 2) << ran.err;
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("is the recording"), HasSubstr("rakelight import oni")));
+  EXPECT_FALSE(fs::exists(home / "scan"));
 }
 
 TEST(Scan, NamesTheLampsThatDoNotWork) {

@@ -57,6 +57,19 @@ TEST(ResultIo, WritesEveryFileOfTheFormatAndLeavesNothingBeside) {
   EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"out"});
 }
 
+TEST(ResultIo, SaysWhereItsStackLies) {
+  const test::TemporaryFolder folder;
+  write_result(test::sample_result(), folder / "out");
+  EXPECT_TRUE(manifest(folder / "out")["stack"].is_null());
+  LightStack stack;
+  fs::create_directory(folder / "scan");
+  stack.origin = folder / "scan";
+  write_result(test::sample_result(), folder / "out", &stack);
+  EXPECT_EQ(manifest(folder / "out")["stack"]["relative"], "../scan");
+  EXPECT_EQ(manifest(folder / "out")["stack"]["absolute"], fs::canonical(folder / "scan").string());
+  EXPECT_EQ(read_result(folder / "out").stack, folder / "scan");
+}
+
 TEST(ResultIo, ReadsBackExactlyWhatItWrote) {
   const test::TemporaryFolder folder;
   const RefineResult written = test::sample_result();

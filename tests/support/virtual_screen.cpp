@@ -69,6 +69,8 @@ VirtualScreen::~VirtualScreen() {
   unsetenv("DISPLAY");
 }
 
+void VirtualScreen::end() const { kill(server_, SIGKILL); }
+
 /// The file is an X window dump: 25 big-endian words of header, a colour table, rows of B G R x.
 cv::Mat3b VirtualScreen::look() const {
   std::ifstream file(folder_ / "Xvfb_screen0", std::ios::binary);

@@ -26,6 +26,9 @@ class VirtualScreen {
   VirtualScreen(const VirtualScreen&) = delete;
   VirtualScreen& operator=(const VirtualScreen&) = delete;
 
+  /// Takes the server away from the programs that use it.
+  void end() const;
+
   /// What is on the screen, R G B.
   cv::Mat3b look() const;
 

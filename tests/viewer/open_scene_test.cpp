@@ -59,6 +59,32 @@ TEST_F(OpenScene, AResultWithItsScanHasBoth) {
   EXPECT_EQ(scene.frames.size(), 8u);
 }
 
+TEST_F(OpenScene, AResultFindsItsScanAlsoWhenBothWereMoved) {
+  std::filesystem::create_directory(folder_ / "here");
+  write_stack(test::bump_stack(), folder_ / "here/scan", test::bump_truth());
+  const LightStack stack = read_stack(folder_ / "here/scan");
+  write_result(test::bump_result(), folder_ / "here/out", &stack);
+  std::filesystem::rename(folder_ / "here", folder_ / "there");
+  const Scene scene = open_scene({folder_ / "there/out", {}});
+  EXPECT_EQ(scene.stack, folder_ / "there/scan");
+  EXPECT_TRUE(scene.frames.empty()) << "a result opens without the time that takes";
+  const Scene more = with_stack(scene);
+  EXPECT_EQ(more.frames.size(), 8u);
+  EXPECT_NE(more.find(LayerKind::truth), nullptr);
+  std::filesystem::rename(folder_ / "there/out", folder_ / "out");
+  EXPECT_TRUE(open_scene({folder_ / "out", {}}).stack.empty()) << "neither place holds it now";
+}
+
+TEST_F(OpenScene, AResultWhoseScanIsBrokenShowsWhatItHas) {
+  write_stack(test::bump_stack(), folder_ / "scan");
+  const LightStack stack = read_stack(folder_ / "scan");
+  write_result(test::bump_result(), folder_ / "out", &stack);
+  std::filesystem::remove(folder_ / "scan/stack.json");
+  const Scene more = with_stack(open_scene({folder_ / "out", {}}));
+  EXPECT_EQ(more.layers.size(), 2u);
+  EXPECT_TRUE(more.stack.empty());
+}
+
 TEST_F(OpenScene, RefusesWhatIsNeitherScanNorResult) {
   EXPECT_THAT(refusal(folder_.path()), HasSubstr("is neither a stack"));
   EXPECT_THAT(refusal(folder_ / "nowhere"), HasSubstr("does not exist"));

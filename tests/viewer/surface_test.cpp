@@ -53,6 +53,17 @@ TEST(Surface, LeavesStrayReadingsOutOfItsBounds) {
   EXPECT_LT(surface_of(layer, "stray").bounds.high[2], 0.51);
 }
 
+TEST(Surface, HasACoarseMeshOverTheSamePointsOnlyIfItIsLarge) {
+  EXPECT_TRUE(surface_of(step_layer(), "step").coarse_triangles.empty());
+  Layer layer;
+  layer.camera = {640, 480, 500, 500, 319.5, 239.5, {}};
+  layer.depth = cv::Mat1f(480, 640, 0.5f);
+  const Surface surface = surface_of(layer, "plane");
+  EXPECT_EQ(surface.coarse_triangles.size(), 2u * 319 * 239) << "every second row and column";
+  const auto& last = surface.coarse_triangles.back();
+  EXPECT_EQ(surface.pixels[static_cast<std::size_t>(last[0])].y % 2, 0);
+}
+
 TEST(Surface, IsRefusedWithoutAPoint) {
   Layer layer = step_layer();
   layer.depth = std::numeric_limits<float>::quiet_NaN();

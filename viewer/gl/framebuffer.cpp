@@ -28,6 +28,13 @@ void require_complete(const cv::Size& size) {
                               "; ask for a smaller one");
 }
 
+void copy(GLuint from, GLuint to, const cv::Size& size) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+  glBlitFramebuffer(0, 0, size.width, size.height, 0, 0, size.width, size.height, GL_COLOR_BUFFER_BIT,
+                    GL_NEAREST);
+}
+
 void require_size(const cv::Size& size) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
@@ -59,15 +66,30 @@ Framebuffer::Framebuffer(const cv::Size& size) : size_(size) {
   require_complete(size);
 }
 
-cv::Mat3b Framebuffer::read() const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.id());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.id());
-  glBlitFramebuffer(0, 0, size_.width, size_.height, 0, 0, size_.width, size_.height, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
+void Framebuffer::bind() const { glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id()); }
+
+void Framebuffer::resolve() const {
+  copy(drawn_.id(), resolved_.id(), size_);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.id());
+}
+
+cv::Mat3b Framebuffer::read() const {
+  resolve();
   cv::Mat3b picture = read_pixels(size_);
-  glBindFramebuffer(GL_FRAMEBUFFER, drawn_.id());
+  bind();
   return picture;
+}
+
+/// In two steps: samples are merged between buffers of one format only, and the window's may be another.
+void Framebuffer::show_in_window() const {
+  resolve();
+  copy(resolved_.id(), 0, size_);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+bool is_software_renderer() {
+  const std::string name = renderer_name();
+  return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos;
 }
 
 void clear_window() {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "viewer/gl/display_loss.h"
 #include "viewer/gl/gl_object.h"
 
 namespace rakelight {
@@ -28,13 +29,12 @@ void GlfwWindowDeleter::operator()(GLFWwindow* window) const {
   glfwTerminate();
 }
 
-GlfwWindowPtr make_glfw_window(const std::string& title, int width, int height, bool visible, int samples) {
+GlfwWindowPtr make_glfw_window(const std::string& title, int width, int height, bool visible) {
   if (glfwInit() == GLFW_FALSE) refuse("no display for a window");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
-  glfwWindowHint(GLFW_SAMPLES, samples);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   GlfwWindowPtr window(glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr));
   if (!window) {
@@ -45,6 +45,7 @@ GlfwWindowPtr make_glfw_window(const std::string& title, int width, int height, 
       throw;
     }
   }
+  watch_for_display_loss();
   glfwMakeContextCurrent(window.get());
   require_opengl_33("the window");
   return window;

@@ -16,7 +16,8 @@ struct GlfwWindowDeleter {
 };
 using GlfwWindowPtr = std::unique_ptr<GLFWwindow, GlfwWindowDeleter>;
 
-/// @param samples of multisampling a pixel  @throws std::system_error when there is no display or no OpenGL 3.3
-GlfwWindowPtr make_glfw_window(const std::string& title, int width, int height, bool visible, int samples);
+/// Without samples: what needs them draws into a Framebuffer.
+/// @throws std::system_error when there is no display or no OpenGL 3.3
+GlfwWindowPtr make_glfw_window(const std::string& title, int width, int height, bool visible);
 
 }  // namespace rakelight

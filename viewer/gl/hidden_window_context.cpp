@@ -12,7 +12,7 @@ class HiddenWindowContext : public OffscreenContext {
   std::string path() const override { return "a hidden window on " + std::string(renderer_name()); }
 
  private:
-  GlfwWindowPtr window_ = make_glfw_window("rakelight", 64, 64, false, 0);
+  GlfwWindowPtr window_ = make_glfw_window("rakelight", 64, 64, false);
 };
 
 }  // namespace

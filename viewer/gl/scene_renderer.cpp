@@ -78,7 +78,7 @@ void SceneRenderer::set_uniforms(const Look& look, const OrbitCamera& camera, co
   glUniform1i(place("orthographic"), camera.orthographic ? 1 : 0);
 }
 
-void SceneRenderer::draw(const Look& look, const OrbitCamera& camera, const cv::Size& size) {
+void SceneRenderer::draw(const Look& look, const OrbitCamera& camera, const cv::Size& size, Detail detail) {
   glViewport(0, 0, size.width, size.height);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_PROGRAM_POINT_SIZE);
@@ -88,7 +88,8 @@ void SceneRenderer::draw(const Look& look, const OrbitCamera& camera, const cv::
     const SurfaceBuffers& buffers = painted(layer, look);
     glUniform1f(glGetUniformLocation(program_.id(), "point_size"),
                 point_size(surfaces_.of(layer), camera, size));
-    look.points ? buffers.draw_points() : buffers.draw_mesh();
+    if (look.points) return buffers.draw_points();
+    detail == Detail::quick ? buffers.draw_coarse_mesh() : buffers.draw_mesh();
   };
   if (!look.split) return draw_layer(look.layer);
   const int divider = static_cast<int>(std::lround(look.divider * size.width));

@@ -15,6 +15,11 @@
 
 namespace rakelight {
 
+enum class Detail {
+  full,
+  quick,  ///< large meshes thinned: for a picture that is soon followed by another
+};
+
 /// Lives in one current OpenGL context.
 class SceneRenderer {
  public:
@@ -22,7 +27,7 @@ class SceneRenderer {
   explicit SceneRenderer(Surfaces& surfaces);
 
   /// Fills the bound framebuffer's rectangle (lower left corner at its origin). @param size pixels
-  void draw(const Look& look, const OrbitCamera& camera, const cv::Size& size);
+  void draw(const Look& look, const OrbitCamera& camera, const cv::Size& size, Detail detail = Detail::full);
 
  private:
   struct Uploaded {

@@ -21,8 +21,10 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface)
       normals_(make_buffer()),
       colors_(make_buffer()),
       indices_(make_buffer()),
+      coarse_indices_(make_buffer()),
       points_(static_cast<int>(surface.positions.size())),
-      indices_count_(static_cast<int>(3 * surface.triangles.size())) {
+      indices_count_(static_cast<int>(3 * surface.triangles.size())),
+      coarse_indices_count_(static_cast<int>(3 * surface.coarse_triangles.size())) {
   glBindVertexArray(array_.id());
   fill(GL_ARRAY_BUFFER, positions_, surface.positions);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -33,6 +35,7 @@ SurfaceBuffers::SurfaceBuffers(const Surface& surface)
   glBindBuffer(GL_ARRAY_BUFFER, colors_.id());
   glVertexAttribPointer(2, 3, GL_UNSIGNED_BYTE, GL_TRUE, 0, nullptr);
   glEnableVertexAttribArray(2);
+  fill(GL_ELEMENT_ARRAY_BUFFER, coarse_indices_, surface.coarse_triangles);
   fill(GL_ELEMENT_ARRAY_BUFFER, indices_, surface.triangles);
 }
 
@@ -47,7 +50,15 @@ void SurfaceBuffers::draw_points() const {
 
 void SurfaceBuffers::draw_mesh() const {
   glBindVertexArray(array_.id());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
   glDrawElements(GL_TRIANGLES, indices_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+void SurfaceBuffers::draw_coarse_mesh() const {
+  if (coarse_indices_count_ == 0) return draw_mesh();
+  glBindVertexArray(array_.id());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, coarse_indices_.id());
+  glDrawElements(GL_TRIANGLES, coarse_indices_count_, GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace rakelight

@@ -19,10 +19,12 @@ class SurfaceBuffers {
   void set_colors(const std::vector<cv::Vec3b>& colors);
   void draw_points() const;
   void draw_mesh() const;
+  /// Fewer triangles, for a picture that is soon followed by another.
+  void draw_coarse_mesh() const;
 
  private:
-  GlObject array_, positions_, normals_, colors_, indices_;
-  int points_ = 0, indices_count_ = 0;
+  GlObject array_, positions_, normals_, colors_, indices_, coarse_indices_;
+  int points_ = 0, indices_count_ = 0, coarse_indices_count_ = 0;
 };
 
 }  // namespace rakelight

@@ -45,7 +45,7 @@ void Filmstrip::draw(ViewState& state, const Scene& scene) {
   ImGui::SetNextWindowSize({size.x - 15 * line, height + 3.4f * line}, ImGuiCond_FirstUseEver);
   ImGui::Begin("Images", &state.show_frames,
                ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoFocusOnAppearing);
-  if (scene.frames.empty()) ImGui::TextUnformatted("a result holds no images; start with --stack STACK");
+  if (scene.frames.empty()) ImGui::TextUnformatted("no images here: the scan of this result is not at hand; start with --stack STACK");
   while (thumbnails_.size() < scene.frames.size())
     thumbnails_.emplace_back(thumbnail(scene.frames[thumbnails_.size()].picture));
   for (std::size_t i = 0; i < scene.frames.size(); ++i) {

@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "viewer/live_view.h"
 
-#include <atomic>
+#include <chrono>
 #include <future>
+#include <utility>
 
 #include "viewer/window/viewer_window.h"
 
 namespace rakelight {
 namespace {
 
-/// The surface so far as a scene. The first one is kept beside it as what the refinement started from.
-Scene scene_so_far(const Camera& camera, const cv::Mat1f& start, const cv::Mat1f& depth) {
+Scene scene_so_far(const Camera& camera, const cv::Mat1f& depth) {
   Scene scene;
   scene.title = "the surface so far";
-  if (start.size() == depth.size()) scene.layers.push_back({LayerKind::preprocessed, camera, start, {}});
   scene.layers.push_back({LayerKind::refined, camera, depth, {}});
   return scene;
 }
@@ -23,14 +22,15 @@ class LiveWindow {
  public:
   LiveWindow(const std::string& title, const cv::Size& size) : window_(title, size) {}
 
-  void show(const LiveFeed::News& news) {
-    if (!news.any) return;
-    if (news.camera) {
-      show_surface(*news.camera, news.surface);
-    } else if (!has_surface_) {
-      window_.show_pictures(news.color, news.depth);
-    }
+  void show(LiveFeed::News news) {
     if (!news.status.empty()) window_.set_status(news.status);
+    if (news.scene) return show_scene(*std::move(news.scene));
+    if (news.camera) {
+      show_scene(scene_so_far(*news.camera, news.surface));
+    } else if (!has_scene_ && !(news.color.empty() && news.depth.empty())) {
+      const cv::Mat3b depth = news.depth.empty() ? cv::Mat3b() : depth_colors(news.depth, news.depth_unit_m);
+      window_.show_pictures(news.color, depth);
+    }
   }
   bool step() {
     constexpr double kWait = 0.03;  // seconds: the feed is asked about as often as a sensor has frames
@@ -38,46 +38,52 @@ class LiveWindow {
   }
 
  private:
-  void show_surface(const Camera& camera, const cv::Mat1f& depth) {
-    if (start_.size() != depth.size()) start_ = depth;
-    Scene scene = scene_so_far(camera, start_, depth);
-    if (has_surface_) return window_.update(std::move(scene));
+  /// Where the person has turned the surface it stays turned.
+  void show_scene(Scene scene) {
+    if (has_scene_) return window_.update(std::move(scene));
     const Look look = default_look(scene);
     window_.show(std::move(scene), look, {}, false);
-    has_surface_ = true;
+    has_scene_ = true;
   }
 
   ViewerWindow window_;
-  cv::Mat1f start_;
-  bool has_surface_ = false;
+  bool has_scene_ = false;
+};
+
+/// The work in its thread, waited for on every way out.
+class Work {
+ public:
+  explicit Work(const std::function<void(LiveFeed&)>& work)
+      : done_(std::async(std::launch::async, [this, &work] { work(feed_); })) {}
+  ~Work() { feed_.stop_watching(); }  // the future waits
+  Work(const Work&) = delete;
+  Work& operator=(const Work&) = delete;
+
+  LiveFeed& feed() { return feed_; }
+  bool is_done() const { return done_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+  /// @throws what the work threw
+  void finish() { done_.get(); }
+
+ private:
+  LiveFeed feed_;
+  std::future<void> done_;
 };
 
 }  // namespace
 
 void show_live(const std::string& title, const cv::Size& size, const std::function<void(LiveFeed&)>& work,
-               bool stay) {
+               const std::function<bool()>& keep_open) {
   LiveWindow window(title, size);
-  LiveFeed feed;
-  std::future<void> done = std::async(std::launch::async, [&work, &feed] { work(feed); });
-  const auto working = [&done] {
-    return done.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
-  };
+  Work running(work);
   bool open = true;
-  try {
-    while (open && working()) {
-      window.show(feed.take());
-      open = window.step();
-    }
-  } catch (...) {
-    feed.stop_watching();  // the work goes on and is waited for; what the window lacked is told then
-    done.get();
-    throw;
+  while (open && !running.is_done()) {
+    window.show(running.feed().take());
+    open = window.step();
   }
-  if (!open) feed.stop_watching();
-  done.get();
-  if (!open) return;
-  window.show(feed.take());
-  while (stay && window.step()) {}
+  if (!open) running.feed().stop_watching();
+  running.finish();
+  window.show(running.feed().take());
+  while (open && (!keep_open || keep_open())) open = window.step();
 }
 
 }  // namespace rakelight

@@ -4,41 +4,28 @@
 
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <optional>
 
-#include "stack/errors.h"
 #include "stack/image_file.h"
 #include "viewer/commands.h"
-#include "viewer/gl/framebuffer.h"
+#include "viewer/gl/display_loss.h"
 #include "viewer/gl/glfw_window.h"
-#include "viewer/gl/scene_renderer.h"
 #include "viewer/mouse.h"
-#include "viewer/picking.h"
-#include "viewer/window/filmstrip.h"
 #include "viewer/window/interface.h"
-#include "viewer/window/key_names.h"
-#include "viewer/window/legend.h"
 #include "viewer/window/live_pictures.h"
-#include "viewer/window/marks.h"
 #include "viewer/window/panel.h"
-#include "viewer/window/plots.h"
+#include "viewer/window/shown_scene.h"
+#include "viewer/window/window_events.h"
 
 namespace rakelight {
 namespace {
 
-constexpr int kSamples = 4;
 constexpr int kSettlingFrames = 3;  ///< Dear ImGui needs some frames to answer an event
-
-/// A scene and all that is made of it.
-struct Shown {
-  explicit Shown(Scene shown) : scene(std::move(shown)), surfaces(scene), renderer(surfaces) {}
-  Scene scene;
-  Surfaces surfaces;
-  SceneRenderer renderer;
-  Filmstrip filmstrip;
-};
 
 /// The first of rakelight-0001.png, rakelight-0002.png … that does not exist.
 std::filesystem::path free_picture_name() {
@@ -54,13 +41,16 @@ std::filesystem::path free_picture_name() {
 struct ViewerWindow::Impl {
   GlfwWindowPtr window;
   std::optional<Interface> interface;
-  std::unique_ptr<Shown> shown;
+  std::unique_ptr<ShownScene> shown;
   std::unique_ptr<LivePictures> live;
+  std::future<Scene> with_its_stack;  ///< what is shown, with its scan, while that is read
   ViewState state;
-  MouseControl mouse{[this](const cv::Point2d& at) { click(at); }};
-  Look last_good;
-  cv::Point2d cursor;  ///< where the last event said it was; asked for now, it might have moved on
+  MouseControl mouse{[this](const cv::Point2d& at) {
+    if (shown) shown->click(state, device_coordinates(at, units()));
+  }};
+  WindowEvents events = make_events();
   int frames_to_draw = kSettlingFrames;
+  bool quick_frames = false;  ///< where drawing takes long, all but the last frame are quick
 
   cv::Size2d units() const {
     int width = 1, height = 1;
@@ -72,88 +62,59 @@ struct ViewerWindow::Impl {
     glfwGetFramebufferSize(window.get(), &size.width, &size.height);
     return size;
   }
-  void listen();
-  void click(const cv::Point2d& at);
+  WindowEvents make_events();
+  void press_key(const std::string& key);
   void open(const std::filesystem::path& folder);
   void replace(Scene scene, const Look& look, const ViewPoint& view);
-  void draw_scene(const cv::Size& size);
-  void draw_interface();
-  void draw();
+  void show_stack_when_read();
+  void draw(Detail detail);
   void save_picture(const cv::Size& size);
 };
 
-/// Callbacks of C code: what they call may throw only on dropped folders, and that is caught in open().
-void ViewerWindow::Impl::listen() {
-  GLFWwindow* const glfw = window.get();
-  glfwSetWindowUserPointer(glfw, this);
-  const auto self = [](GLFWwindow* w) {
-    auto* impl = static_cast<Impl*>(glfwGetWindowUserPointer(w));
-    impl->frames_to_draw = kSettlingFrames;
-    return impl;
+WindowEvents ViewerWindow::Impl::make_events() {
+  WindowEvents handlers;
+  handlers.any = [this] { frames_to_draw = kSettlingFrames; };
+  handlers.key = [this](const std::string& key) { press_key(key); };
+  handlers.press = [this](MouseButton button, bool shift, const cv::Point2d& at) {
+    if (!interface->wants_mouse()) mouse.press(state, button, shift, at, units());
   };
-  static const auto owner = self;
-  glfwSetMouseButtonCallback(glfw, [](GLFWwindow* w, int button, int action, int modifiers) {
-    Impl& impl = *owner(w);
-    if (action == GLFW_RELEASE) return impl.mouse.release(impl.cursor);
-    if (impl.interface->wants_mouse()) return;
-    const MouseButton which = button == GLFW_MOUSE_BUTTON_LEFT    ? MouseButton::left
-                              : button == GLFW_MOUSE_BUTTON_RIGHT ? MouseButton::right
-                                                                  : MouseButton::middle;
-    impl.mouse.press(impl.state, which, (modifiers & GLFW_MOD_SHIFT) != 0, impl.cursor, impl.units());
-  });
-  glfwSetCursorPosCallback(glfw, [](GLFWwindow* w, double x, double y) {
-    Impl& impl = *owner(w);
-    impl.cursor = {x, y};
-    if (!impl.interface->wants_mouse()) impl.mouse.move(impl.state, impl.cursor, impl.units());
-  });
-  glfwSetScrollCallback(glfw, [](GLFWwindow* w, double, double notches) {
-    Impl& impl = *owner(w);
-    if (!impl.interface->wants_mouse()) impl.mouse.scroll(impl.state, notches, impl.cursor, impl.units());
-  });
-  glfwSetKeyCallback(glfw, [](GLFWwindow* w, int key, int scancode, int action, int) {
-    Impl& impl = *owner(w);
-    if (action == GLFW_PRESS && impl.shown) press_key(key_name(key, scancode), impl.state, impl.shown->scene);
-  });
-  glfwSetDropCallback(glfw, [](GLFWwindow* w, int count, const char** paths) {
-    if (count > 0) owner(w)->open(paths[0]);
-  });
-  glfwSetWindowRefreshCallback(glfw, [](GLFWwindow* w) { owner(w); });
-  glfwSetFramebufferSizeCallback(glfw, [](GLFWwindow* w, int, int) { owner(w); });
+  handlers.release = [this](const cv::Point2d& at) { mouse.release(at); };
+  handlers.move = [this](const cv::Point2d& at) {
+    if (!interface->wants_mouse()) mouse.move(state, at, units());
+  };
+  handlers.scroll = [this](double notches, const cv::Point2d& at) {
+    if (!interface->wants_mouse()) mouse.scroll(state, notches, at, units());
+  };
+  handlers.drop = [this](const std::filesystem::path& path) { open(path); };
+  return handlers;
 }
 
-void ViewerWindow::Impl::click(const cv::Point2d& at) {
-  if (!shown || state.tool == Tool::none) return;
-  const cv::Point2d device = device_coordinates(at, units());
-  const bool before = state.look.split && (device.x + 1) / 2 < state.look.divider;
-  const Surface& surface = shown->surfaces.of(before ? state.look.before : state.look.layer);
-  const auto picked = pick(surface, ray_through(state.camera, state.aspect, device.x, device.y));
-  if (!picked) {
-    state.status = "no surface there";
-    return;
+/// Live pictures can only be left.
+void ViewerWindow::Impl::press_key(const std::string& key) {
+  if (shown) {
+    rakelight::press_key(key, state, shown->scene());
+  } else if (key == "Q") {
+    state.wants_quit = true;
   }
-  add_point(state, picked->point);
-  char text[120];
-  std::snprintf(text, sizeof text, "point at (%.2f, %.2f, %.2f) mm", 1000 * picked->point.x(),
-                1000 * picked->point.y(), 1000 * picked->point.z());
-  state.status = text;
-  if (state.points.size() < 2) return;
-  std::snprintf(text, sizeof text, "distance %.2f mm", measured_mm(state));
-  state.status = text;
 }
 
 void ViewerWindow::Impl::replace(Scene scene, const Look& look, const ViewPoint& view) {
   check_look(scene, look);
-  auto next = std::make_unique<Shown>(std::move(scene));
-  state.bounds = next->surfaces.bounds();
+  auto next = std::make_unique<ShownScene>(std::move(scene), look);
+  state.bounds = next->bounds();
   const cv::Size2d size = units();
   state.aspect = size.width / size.height;
   state.camera = camera_at(view, state.bounds, state.aspect);
-  state.look = last_good = look;
+  state.look = look;
   state.points.clear();
   state.tool = Tool::none;
   shown = std::move(next);
   live.reset();
-  glfwSetWindowTitle(window.get(), ("Rakelight - " + shown->scene.title).c_str());
+  with_its_stack = {};
+  if (!shown->scene().stack.empty())
+    with_its_stack = std::async(std::launch::async, with_stack, shown->scene());
+  frames_to_draw = kSettlingFrames;
+  glfwSetWindowTitle(window.get(), ("Rakelight - " + shown->scene().title).c_str());
 }
 
 void ViewerWindow::Impl::open(const std::filesystem::path& folder) {
@@ -165,32 +126,12 @@ void ViewerWindow::Impl::open(const std::filesystem::path& folder) {
   } catch (const std::exception& error) { state.status = error.what(); }
 }
 
-/// A layer that cannot be drawn is refused in the status line, and the one before it comes back.
-void ViewerWindow::Impl::draw_scene(const cv::Size& size) {
-  try {
-    shown->renderer.draw(state.look, state.camera, size);
-    last_good = state.look;
-  } catch (const InputError& error) {
-    state.status = error.what();
-    state.look = last_good;
-    shown->renderer.draw(state.look, state.camera, size);
-  }
-}
-
-void ViewerWindow::Impl::draw_interface() {
-  const cv::Size2f size(units());
-  if (live) live->draw(size);
-  if (!shown) return draw_status(state, size);
-  Scene& scene = shown->scene;
-  draw_legend(shown->surfaces.range(state.look.coloring), state.look, size);
-  draw_marks(state, size);
-  if (state.wants_picture) return;  // the rest is not part of it
-  draw_status(state, size);
-  if (state.show_panel) draw_panel(state, scene);
-  if (state.show_keys) draw_keys_page(state);
-  if (state.show_frames) shown->filmstrip.draw(state, scene);
-  if (state.show_convergence) draw_convergence(state, scene);
-  draw_profile(state, scene);
+void ViewerWindow::Impl::show_stack_when_read() {
+  if (!with_its_stack.valid() ||
+      with_its_stack.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return;
+  shown->extend(with_its_stack.get());
+  frames_to_draw = kSettlingFrames;
 }
 
 void ViewerWindow::Impl::save_picture(const cv::Size& size) {
@@ -203,24 +144,29 @@ void ViewerWindow::Impl::save_picture(const cv::Size& size) {
   } catch (const std::exception& error) { state.status = error.what(); }
 }
 
-void ViewerWindow::Impl::draw() {
+void ViewerWindow::Impl::draw(Detail detail) {
   const cv::Size size = pixels();
   if (size.empty()) return;  // minimised
   state.aspect = static_cast<double>(size.width) / size.height;
-  clear_window();
   const bool taking = state.wants_picture;
-  if (shown) draw_scene(size);
+  if (shown) {
+    shown->draw(state, size, taking ? Detail::full : detail);
+  } else {
+    clear_window();
+  }
   interface->begin_frame();
-  draw_interface();
+  if (live) live->draw(cv::Size2f(units()));
+  shown ? shown->draw_interface(state, cv::Size2f(units())) : draw_status(state, cv::Size2f(units()));
   interface->end_frame();
   if (taking) save_picture(size);
   glfwSwapBuffers(window.get());
 }
 
 ViewerWindow::ViewerWindow(const std::string& title, const cv::Size& size) : impl_(std::make_unique<Impl>()) {
-  impl_->window = make_glfw_window(title, size.width, size.height, true, kSamples);
+  impl_->window = make_glfw_window(title, size.width, size.height, true);
   glfwSwapInterval(1);
-  impl_->listen();
+  impl_->quick_frames = is_software_renderer();
+  listen(impl_->window.get(), impl_->events);
   impl_->interface.emplace(impl_->window.get());
 }
 
@@ -233,13 +179,15 @@ void ViewerWindow::show(Scene scene, const Look& look, const ViewPoint& view, bo
 
 void ViewerWindow::update(Scene scene) {
   check_look(scene, impl_->state.look);
-  auto next = std::make_unique<Shown>(std::move(scene));
-  impl_->state.bounds = next->surfaces.bounds();
+  auto next = std::make_unique<ShownScene>(std::move(scene), impl_->state.look);
+  impl_->state.bounds = next->bounds();
   impl_->shown = std::move(next);
+  impl_->with_its_stack = {};
   impl_->frames_to_draw = kSettlingFrames;
 }
 
 void ViewerWindow::show_pictures(const cv::Mat3b& color, const cv::Mat3b& depth) {
+  impl_->with_its_stack = {};
   impl_->shown.reset();
   if (!impl_->live) impl_->live = std::make_unique<LivePictures>();
   impl_->live->set(color, depth);
@@ -255,12 +203,15 @@ bool ViewerWindow::step(double most_wait) {
   if (impl_->frames_to_draw > 0) {
     glfwPollEvents();
   } else {
-    glfwWaitEventsTimeout(most_wait);
+    constexpr double kReading = 0.05;  // seconds
+    glfwWaitEventsTimeout(impl_->with_its_stack.valid() ? std::min(most_wait, kReading) : most_wait);
   }
+  require_display();
+  impl_->show_stack_when_read();
   if (impl_->state.wants_quit || glfwWindowShouldClose(impl_->window.get()) == GLFW_TRUE) return false;
   if (impl_->frames_to_draw == 0) return true;
   --impl_->frames_to_draw;
-  impl_->draw();
+  impl_->draw(impl_->quick_frames && impl_->frames_to_draw > 0 ? Detail::quick : Detail::full);
   return true;
 }
 

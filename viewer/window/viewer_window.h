@@ -32,6 +32,7 @@ class ViewerWindow {
   void set_status(const std::string& text);
 
   /// Waits for events, at most so long (seconds), handles them and draws. @return false once the window is to close
+  /// @throws std::system_error if the display went away
   bool step(double most_wait);
 
  private:

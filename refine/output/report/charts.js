@@ -3,14 +3,6 @@
 //
 // Diagrams as SVG: the histogram of the change in depth, and convergence.
 
-/** An SVG element; strings become text. */
-function svg(name, attributes = {}, ...children) {
-  const made = document.createElementNS('http://www.w3.org/2000/svg', name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.append(...children);
-  return made;
-}
-
 /** A picture of size 440 x 280 with a description for those who do not see it. */
 function diagram(description, ...children) {
   return svg('svg', {viewBox: '0 0 440 280', role: 'img', 'aria-label': description}, ...children);

@@ -6,6 +6,9 @@
 /** A lamp farther than this many times the object's distance is drawn as a direction only. */
 const kFarLamp = 10;
 
+/** Angle between the direction to a lamp and that to the camera, radians. */
+const offAxis = (direction) => Math.acos(Math.max(-1, Math.min(1, -direction[2])));
+
 /** Direction (unit, from the object to the lamp), colour and position of each image's lamp; camera coordinates. */
 function lampsOfResult() {
   return result.lights.map((light) => {
@@ -32,18 +35,23 @@ function dot(lamp, x, y, radius = 6) {
 /** Angle from the optical axis as the radius: the middle is the camera's own direction, the rim is grazing light. */
 function hemisphere(lamps) {
   const [cx, cy, radius] = [220, 152, 106];
-  const rings = [30, 60, 90].flatMap((degrees) => [
-    svg('circle', {class: degrees === 90 ? 'axis' : 'grid', cx, cy, r: radius * degrees / 90}),
-    svg('text', {class: 'quiet', x: cx + 3, y: cy - radius * degrees / 90 - 3}, `${degrees}\u00b0`)]);
+  const angles = [30, 60, 90];
+  const rings = angles.map((degrees) =>
+    svg('circle', {class: degrees === 90 ? 'axis' : 'grid', cx, cy, r: radius * degrees / 90}));
+  // Beside the diagram, where no lamp hides them.
+  const scale = angles.flatMap((degrees) => [
+    svg('path', {class: 'grid', d: `M${cx + radius * degrees / 90} ${cy}V${cy + radius + 6}`}),
+    svg('text', {class: 'quiet', x: cx + radius * degrees / 90, y: cy + radius + 19, 'text-anchor': 'middle'},
+      `${degrees}\u00b0`)]);
   const dots = lamps.map((lamp) => {
-    const [x, y, z] = lamp.direction;
-    const reach = Math.min(1.12, Math.acos(Math.max(-1, Math.min(1, -z))) / (Math.PI / 2)) * radius;
+    const [x, y] = lamp.direction;
+    const reach = Math.min(1.12, offAxis(lamp.direction) / (Math.PI / 2)) * radius;
     const side = Math.hypot(x, y) || 1;
     return dot(lamp, cx + reach * x / side, cy + reach * y / side);
   });
   return diagram(`Directions of ${lamps.length} lamps seen from the camera; the table below has the numbers.`,
     svg('text', {x: 12, y: 18}, 'Directions, as the camera sees them'), ...rings,
-    svg('path', {class: 'grid', d: `M${cx - radius} ${cy}h${2 * radius}M${cx} ${cy - radius}v${2 * radius}`}), ...dots);
+    svg('path', {class: 'grid', d: `M${cx - radius} ${cy}h${2 * radius}M${cx} ${cy - radius}v${2 * radius}`}), ...scale, ...dots);
 }
 
 /** Seen from above: x to the right, the camera below, the object above it. */
@@ -81,7 +89,7 @@ function drawLamps() {
   const table = element('table');
   fillTable(table, lamps.map((lamp) => [lamp.id, String(lamp.frame),
     `${degrees(Math.atan2(-lamp.direction[1], lamp.direction[0])).toFixed(0)}\u00b0`,
-    `${degrees(Math.acos(Math.max(-1, Math.min(1, -lamp.direction[2])))).toFixed(0)}\u00b0`, lamp.strength,
+    `${degrees(offAxis(lamp.direction)).toFixed(0)}\u00b0`, lamp.strength,
     lamp.position ? lamp.position.map((v) => v.toFixed(2)).join(' ') : null]),
   ['Lamp', 'Image', 'Around (0\u00b0 right, 90\u00b0 up)', 'Off the axis', 'Strength', 'Position, m (right, down, forward)']);
   section.after(element('details', {}, element('summary', {}, 'The lamps in numbers'), table));

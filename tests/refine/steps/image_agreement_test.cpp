@@ -17,7 +17,8 @@ Eigen::Matrix3Xf wavy(const PixelGrid& grid, float tilt, float wave) {
   Eigen::Matrix3Xf normals(3, grid.size());
   for (int p = 0; p < grid.size(); ++p) {
     const cv::Point at = grid.pixels[static_cast<size_t>(p)];
-    const float x = static_cast<float>(at.x - kSize / 2) / kSize, y = static_cast<float>(at.y - kSize / 2) / kSize;
+    const float x = static_cast<float>(at.x - kSize / 2) / kSize,
+                y = static_cast<float>(at.y - kSize / 2) / kSize;
     normals.col(p) =
         Eigen::Vector3f(x + tilt * std::sin(static_cast<float>(at.x) * 6.2832f / wave), y, -1).normalized();
   }
@@ -33,17 +34,18 @@ Eigen::Matrix3Xf noisy(Eigen::Matrix3Xf normals, float deviation) {
 }
 
 /// The surface under one light, painted in stripes.
-Observations image_of(const Eigen::Matrix3Xf& normals, const PixelGrid& grid, float paint) {
-  Observations image;
-  image.pixels = grid.size();
-  image.images = 1;
-  image.usable.assign(static_cast<size_t>(3 * grid.size()), 1);
-  for (int c = 0; c < 3; ++c) {
-    for (int p = 0; p < grid.size(); ++p) {
-      const float rho = grid.pixels[static_cast<size_t>(p)].y % 24 < 12 ? 1.0f : paint;
-      image.radiance.push_back(rho * (normals.col(p).dot(Eigen::Vector3f(0.4f, -0.2f, -0.6f)) + 0.1f));
-    }
+Observations image_of(const Eigen::Matrix3Xf& normals, const PixelGrid& grid, float paint,
+                      unsigned char usable = 1) {
+  const auto pixels = static_cast<size_t>(grid.size());
+  const std::vector<unsigned char> all(pixels, usable);
+  std::vector<float> radiance(pixels);
+  for (size_t p = 0; p < pixels; ++p) {
+    const float rho = grid.pixels[p].y % 24 < 12 ? 1.0f : paint;
+    const Eigen::Vector3f n = normals.col(static_cast<Eigen::Index>(p));
+    radiance[p] = rho * (n.dot(Eigen::Vector3f(0.4f, -0.2f, -0.6f)) + 0.1f);
   }
+  Observations image(grid.size(), 1);
+  for (int c = 0; c < 3; ++c) image.set_channel(0, c, radiance.data(), all.data());
   return image;
 }
 
@@ -51,7 +53,8 @@ class ImageAgreementWithPaint : public testing::TestWithParam<float> {};
 INSTANTIATE_TEST_SUITE_P(, ImageAgreementWithPaint, testing::Values(1.0f, 0.4f));
 
 TEST_P(ImageAgreementWithPaint, IsBestForTheTrueSurfaceAgainstNoiseAndAgainstLostRelief) {
-  const PixelGrid grid = make_pixel_grid({kSize, kSize, 50, 50, 24, 24, {}}, cv::Mat1b(kSize, kSize, uchar{255}));
+  const PixelGrid grid =
+      make_pixel_grid({kSize, kSize, 50, 50, 24, 24, {}}, cv::Mat1b(kSize, kSize, uchar{255}));
   const Eigen::Matrix3Xf truth = wavy(grid, 0.3f, 13), broad = wavy(grid, 0, 13);
   const Observations image = image_of(truth, grid, GetParam());
   const ImageAgreement agreement(grid, image, broad, kLag);
@@ -62,10 +65,10 @@ TEST_P(ImageAgreementWithPaint, IsBestForTheTrueSurfaceAgainstNoiseAndAgainstLos
 }
 
 TEST(ImageAgreement, SaysNothingWithoutUsablePixels) {
-  const PixelGrid grid = make_pixel_grid({kSize, kSize, 50, 50, 24, 24, {}}, cv::Mat1b(kSize, kSize, uchar{255}));
+  const PixelGrid grid =
+      make_pixel_grid({kSize, kSize, 50, 50, 24, 24, {}}, cv::Mat1b(kSize, kSize, uchar{255}));
   const Eigen::Matrix3Xf normals = wavy(grid, 0.3f, 13);
-  Observations image = image_of(normals, grid, 1);
-  std::fill(image.usable.begin(), image.usable.end(), static_cast<unsigned char>(0));
+  const Observations image = image_of(normals, grid, 1, 0);
   EXPECT_EQ(ImageAgreement(grid, image, normals, kLag).disagreement(normals), 0);
 }
 

@@ -45,7 +45,7 @@ TEST(SensorBound, CountsReadingsMovedBeyondTheNoiseAndNoHoles) {
   const RefineProblem problem = half_read_plane();
   Eigen::VectorXd moved = problem.prior.start;
   for (int v = 0; v < 10; ++v) {
-    moved[problem.grid.index(v, 0)] = 9 * kNoise;   // no reading
+    moved[problem.grid.index(v, 0)] = 9 * kNoise;  // no reading
     moved[problem.grid.index(v, 10)] = 6 * kNoise;
     moved[problem.grid.index(v, 20)] = 4 * kNoise;
   }
