@@ -79,6 +79,7 @@ std::vector<unsigned char> depth_jumps(const PixelGrid& grid, const Eigen::Vecto
 
 RefineProblem make_problem(const LightStack& stack, const RefineOptions& options) {
   RefineProblem problem;
+  problem.origin = stack.origin;
   problem.scale = resolved_scale(stack, options.scale);
   const Camera depth_camera = registered_depth_camera(stack);
   const Camera camera = binned(depth_camera, 1.0 / problem.scale);

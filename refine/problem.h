@@ -4,6 +4,8 @@
 // From a stack to what a method works on: grid, start, observations, prior.
 #pragma once
 
+#include <string>
+
 #include "refine/observations.h"
 #include "refine/options.h"
 #include "refine/steps/normals.h"
@@ -13,6 +15,7 @@
 namespace rakelight {
 
 struct RefineProblem {
+  std::string origin;     ///< folder of the stack, for messages
   int scale = 1;          ///< refined grid / depth grid
   SensorDepth sensor;     ///< preprocessed, on the depth grid
   PixelGrid grid;         ///< the refined grid

@@ -13,7 +13,10 @@
 #include "refine/steps/lighting.h"
 #include "refine/steps/noise.h"
 #include "refine/steps/robust_weights.h"
+#include "refine/steps/sensor_bound.h"
+#include "refine/steps/smoothness_choice.h"
 #include "refine/steps/depth_step.h"
+#include "stack/errors.h"
 
 namespace rakelight {
 namespace {
@@ -108,17 +111,68 @@ std::vector<float> thirds(std::vector<float> weights) {
   return weights;
 }
 
-/// Three slopes of light are needed to tell a normal from the ratios of three channels.
+/// How far apart the lights of the three channels are: the least singular value of their directions over the largest.
+/// Three in different places are needed to tell a normal from three channels; of one white lamp it is below 0.01.
+double lamp_spread(const SurfaceState& state) {
+  const Eigen::Vector3d spread = lamp_singular_values(state.lamps, state.scene);
+  return spread[0] > 0 ? spread[2] / spread[0] : 0;
+}
+
+/// An image under white light would have its paint carved into the shape. What the stack says of its lamps is believed.
+void refuse_white_light(const RefineProblem& problem, const SurfaceState& state) {
+  constexpr double kOneLight = 0.025;
+  if (problem.images.colored_lamps.front() || lamp_spread(state) >= kOneLight) return;
+  throw InputError(problem.origin,
+                   "the three channels of frame " + std::to_string(problem.images.frame_index.front()) +
+                       " are lit from the same side, as by a white lamp, and rgb-ratio needs red, green and blue "
+                       "lamps in different places",
+                   "use --method fusion-like, which takes any one image");
+}
+
 void judge_directions(const SurfaceState& state, MethodResult& result) {
   constexpr double kNearlyOneDirection = 0.1;
-  const Eigen::Vector3d spread = lamp_singular_values(state.lamps, state.scene);
-  const double ratio = spread[0] > 0 ? spread[2] / spread[0] : 0;
-  result.quality["lamp_spread"] = ratio;
-  if (ratio >= kNearlyOneDirection) return;
+  result.quality["lamp_spread"] = lamp_spread(state);
+  if (result.quality["lamp_spread"] >= kNearlyOneDirection) return;
   result.warnings.push_back(
-      "the image's three channels are lit from nearly the same side: rgb-ratio needs red, green and blue "
-      "lamps "
-      "in different places; for an image under white light use --method fusion-like");
+      "the image's three channels are lit from nearly the same side: rgb-ratio needs red, green and blue lamps in "
+      "different places; set them further apart, or use --method fusion-like");
+}
+
+/// How much of options.depth.smoothness the image bears out.
+double smoothness_share(const RefineProblem& problem, const RefineOptions& options, const CurvaturePrior& curvature,
+                        DepthSolver& solver, MethodResult& result) {
+  if (options.depth.smoothness <= 0) return 1;
+  // lambda_z / lambda_l where the floors of shading_errors hold, as they do on most stacks; the image's error cancels.
+  const double deviation = kSensorCorrelation * problem.depth_noise * problem.grid.camera.fx;
+  const double balance =
+      options.depth.noise_ratio * std::pow(kModelCorrelation / deviation, 2) / options.depth.smoothness;
+  DepthPrior prior = problem.prior;
+  prior.floor /= kFloorPer;
+  const Eigen::Matrix3Xf broad =
+      smoothed(problem.grid, surface_normals(problem.grid, problem.corners, problem.prior.start));
+  const auto choice = choose_smoothness(problem, prior, curvature, solver, broad, balance);
+  if (!choice) return 1;
+  result.quality["smoothness_share"] = choice->share;
+  result.quality["smoothness_gain"] = choice->gain;
+  return choice->share;
+}
+
+/// Keeps the surface of one equation a pixel within what the sensor's noise allows.
+void hold_to_sensor(const RefineProblem& problem, double share, MethodResult& result) {
+  constexpr double kMostBeyond = 0.00075;
+  constexpr double kDetailed = 0.2;  // share of the smoothness below which the object has detail of its own,
+  Eigen::VectorXd& zeta = result.state.zeta;
+  const double beyond = result.quality["beyond_noise_share"] = share_beyond_noise(problem, zeta);
+  if (beyond > kMostBeyond) {
+    zeta = problem.prior.start;
+    result.message += "; the smoothed sensor depth is the result";
+    result.warnings.push_back(
+        "one image was not enough to improve this depth: shading moved it further than the sensor's noise explains, so "
+        "the result is the sensor's depth, smoothed; take more images and use --method multi-light");
+  } else {
+    // and a large correction takes away that detail rather than noise
+    zeta = bounded_by_noise(problem, zeta, share < kDetailed);
+  }
 }
 
 }  // namespace
@@ -134,6 +188,8 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
                           ? make_cholesky_depth_solver(grid, problem.prior.cells)
                           : make_multigrid_depth_solver(grid, problem.prior.cells, kDepthTolerance);
   DepthPrior prior = problem.prior;
+  const double share =
+      light == ImageLight::white ? smoothness_share(problem, options, curvature, *solver, result) : 1;
   ShadingErrors errors;
   const auto fail = [&](const std::string& what, int t) {
     result.termination = Termination::diverged;
@@ -150,18 +206,19 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
     if (t <= kSmoothFits) broad.normals = smoothed(grid, state.normals);
 
     broad.lamps = estimate_far_lamps(shading_image(problem.images, state, light), broad);  // Eq. (9)
+    state.lamps = broad.lamps;  // also where the albedo fails
     broad.albedo = state.albedo;
     if (!smoother.estimate(broad, state.albedo)) {  // Eq. (10), on logarithms
       fail("albedo", t);
       break;
     }
-    state.lamps = broad.lamps;
     normalize_albedo(state);
     const Observations white_image = shading_image(problem.images, state, light);
     SurfaceState white = white_object(state);
     white.normals = broad.normals;
     white.lamps = state.lamps = estimate_far_lamps(white_image, white);
     white.normals = state.normals;
+    if (light == ImageLight::colored && t == kSmoothFits) refuse_white_light(problem, state);
 
     errors = shading_errors(problem, options, white_image, white);
     const double weight = sensor_weight(options.depth, errors);
@@ -173,8 +230,8 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
         corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
     CurvatureWeights smoothness;
     if (options.depth.smoothness > 0)
-      smoothness =
-          curvature.at(state.zeta, options.depth.smoothness * std::pow(errors.sample * grid.camera.fx, 2));
+      smoothness = curvature.at(state.zeta, share * options.depth.smoothness *
+                                                std::pow(errors.sample * grid.camera.fx, 2));
     const DepthProblem depth{grid, problem.corners, tensors, weights, prior, smoothness};
     const Eigen::VectorXd before = state.zeta;
     const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (12)
@@ -201,6 +258,7 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
   if (result.termination == Termination::max_iterations)
     result.message =
         "stopped at the limit of " + std::to_string(options.max_iterations) + " iterations, still moving";
+  if (light == ImageLight::white) hold_to_sensor(problem, share, result);
   state.normals = surface_normals(grid, problem.corners, state.zeta);
   state.points = surface_points(grid, state.zeta);
   if (light == ImageLight::colored) judge_directions(state, result);

@@ -22,7 +22,10 @@ enum class ImageLight {
   white,    ///< any: the channels share one light, and its colour is part of the albedo
 };
 
-/// @param problem with exactly one image
+/// With white light, one equation a pixel for two slopes, paint and relief are told apart by what else is known: the image
+/// says how much smoothness the sensor's depth bears (refine/steps/smoothness_choice.h), and the result stays within what
+/// the sensor's noise allows (refine/steps/sensor_bound.h); where it would not, the start is the result, with a warning.
+/// @param problem with exactly one image  @throws InputError when a coloured image's channels share one light
 MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions& options, ImageLight light,
                                const IterationCallback& after_iteration);
 

@@ -43,6 +43,7 @@ std::optional<SelectedImage> composed(const LightStack& stack, const Observation
                        image_lit(stack, images, LampColor::blue)};
   if (!lit[0] || !lit[1] || !lit[2]) return std::nullopt;
   SelectedImage result{images.only(*lit[0]), "frames"};
+  result.image.colored_lamps = {true};
   for (int c = 0; c < 3; ++c) {
     const int i = *lit[static_cast<size_t>(c)];
     result.image.copy_channel(images, i, 0, c);

@@ -108,6 +108,7 @@ TEST_P(EverySingleImageMethod, StaysFiniteWhereTheImageSaysLittle) {
 
 TEST_P(EverySingleImageMethod, TakesTheFrameAskedFor) {
   LightStack stack = color_lit_bump();
+  for (Light& light : stack.lights) light.color = LampColor::rgb;  // else rgb-ratio sees that one lamp was lit
   RefineOptions options = options_of(GetParam());
   options.frame = stack.frames[1].index;
   const RefineResult result = refine_depth(stack, options);
@@ -145,13 +146,41 @@ TEST(SingleImage, TheExposureDoesNotMatter) {
   EXPECT_LT(most, 2e-4);  // metres: only rounding of the images differs
 }
 
-TEST(SingleImage, RgbRatioWarnsOfAnImageUnderOneWhiteLamp) {
+TEST(SingleImage, RgbRatioRefusesAnImageUnderOneWhiteLampAndNamesTheMethodThatFits) {
   LightStack stack = test::bump_stack();
   stack.frames.resize(1);
-  EXPECT_THAT(refine_depth(stack, options_of(Method::rgb_ratio)).warnings,
-              testing::Contains(HasSubstr("fusion-like")));
-  for (const std::string& warning : refine_depth(color_lit_bump(), options_of(Method::rgb_ratio)).warnings)
-    EXPECT_THAT(warning, testing::Not(HasSubstr("same side")));
+  const std::string message =
+      test::message_of<InputError>([&] { refine_depth(stack, options_of(Method::rgb_ratio)); });
+  EXPECT_THAT(message, HasSubstr("--method fusion-like"));
+  EXPECT_THAT(message, HasSubstr("same side"));
+}
+
+TEST(SingleImage, RgbRatioTakesColouredLampsWhetherTheStackNamesThemOrNot) {
+  LightStack stack = color_lit_bump();
+  cv::Mat channels[3], together;  // blue, green, red in memory
+  for (int c = 0; c < 3; ++c) cv::extractChannel(stack.frames[static_cast<size_t>(c)].color, channels[2 - c], 2 - c);
+  cv::merge(channels, 3, together);
+  stack.frames.resize(1);
+  stack.frames.front().color = together;
+  for (const LampColor color : {LampColor::rgb, LampColor::white}) {
+    for (Light& light : stack.lights) light.color = color;
+    const RefineResult result = refine_depth(stack, options_of(Method::rgb_ratio));
+    EXPECT_GT(result.quality.at("lamp_spread"), 0.1);
+    for (const std::string& warning : result.warnings) EXPECT_THAT(warning, testing::Not(HasSubstr("same side")));
+  }
+}
+
+TEST(SingleImage, FusionKeepsTheSensorsDepthWhereItWouldMoveReadingsFarBeyondTheirNoise) {
+  LightStack stack = color_lit_bump();
+  for (Frame& frame : stack.frames)
+    for (int v = 4; v < frame.depth.rows; v += 8)
+      for (int u = 4; u < frame.depth.cols; u += 8)
+        frame.depth(v, u) = cv::saturate_cast<ushort>(1.03 * frame.depth(v, u));
+  const RefineResult result = refine_depth(stack, options_of(Method::fusion_like));
+  EXPECT_GT(result.quality.at("beyond_noise_share"), 0.001);
+  EXPECT_EQ(cv::countNonZero(cv::Mat(cv::abs(result.depth - result.initial_depth) > 1e-6)), 0);
+  EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("one image was not enough")));
+  EXPECT_THAT(result.message, HasSubstr("smoothed sensor depth"));
 }
 
 TEST(SingleImage, RgbRatioRefusesImagesUnderWhiteLampsOnly) {
