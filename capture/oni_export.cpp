@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <OpenNI.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -58,6 +59,12 @@ cv::Mat eight_bit(const cv::Mat& color) {
   return result;
 }
 
+cv::Mat1w recorded_depth(const LightStack& stack, const Frame& frame) {
+  cv::Mat1w raw;
+  frame.depth.convertTo(raw, CV_16U, stack.depth_unit_m / kUnit_m);
+  return raw;
+}
+
 std::vector<const Frame*> frames_with_both(const LightStack& stack) {
   std::vector<const Frame*> frames;
   for (const Frame& frame : stack.frames) {
@@ -84,10 +91,8 @@ void record(const LightStack& stack, const std::vector<const Frame*>& frames,
   if (recorder.start() != openni::STATUS_OK)
     throw IoError("cannot write " + file.string() + "; check folder and disk");
   const auto push = [&](const Frame& frame, int k) {
-    cv::Mat1w raw;
-    frame.depth.convertTo(raw, CV_16U, stack.depth_unit_m / kUnit_m);
     color.push(eight_bit(frame.color), frame.color_time, k);
-    depth.push(raw, frame.depth_time, k);
+    depth.push(recorded_depth(stack, frame), frame.depth_time, k);
     std::this_thread::sleep_for(pace);
   };
   push(*frames.front(), 0);  // the recorder swallows the first frame of each stream
@@ -98,21 +103,33 @@ void record(const LightStack& stack, const std::vector<const Frame*>& frames,
   depth.stop();
 }
 
-std::size_t recorded_pairs(const std::filesystem::path& file) {
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+/// Whether the file's pairs are these frames.
+bool holds(const std::filesystem::path& file, const LightStack& stack,
+           const std::vector<const Frame*>& frames) {
   try {
-    return import_oni(file, {}).frames.size();
-  } catch (const InputError&) { return 0; }
+    const LightStack recorded = import_oni(file, {});
+    return std::equal(frames.begin(), frames.end(), recorded.frames.begin(), recorded.frames.end(),
+                      [&stack](const Frame* frame, const Frame& pair) {
+                        return same(eight_bit(frame->color), pair.color) &&
+                               same(recorded_depth(stack, *frame), pair.depth);
+                      });
+  } catch (const InputError&) { return false; }
 }
 
 }  // namespace
 
 void export_oni(const LightStack& stack, const std::filesystem::path& file) {
   const std::vector<const Frame*> frames = frames_with_both(stack);
-  // The recorder takes the newest frame of a stream when its own thread comes round, and does not say that it has. So frames
-  // are pushed ever more slowly until the file holds them all.
-  for (const int pace_ms : {5, 20, 80, 320}) {
+  // The recorder takes the newest frame of a stream when its own thread comes round, and does not say that it has; now and then
+  // it does not swallow the first one, and depth lags behind colour from then on. So frames are pushed ever more slowly until
+  // the file holds each beside its own.
+  for (const int pace_ms : {5, 5, 20, 20, 80, 320}) {
     record(stack, frames, file, std::chrono::milliseconds(pace_ms));
-    if (recorded_pairs(file) == frames.size()) return;
+    if (holds(file, stack, frames)) return;
   }
   throw IoError("cannot write all frames to " + file.string() + "; see whether the disk is full");
 }

@@ -37,6 +37,11 @@ bool OpenniDevice::set_property(int id, const void* data, std::size_t size) {
   return device_->setProperty(id, data, static_cast<int>(size)) == openni::STATUS_OK;
 }
 
+bool OpenniDevice::get_property(int id, void* data, std::size_t size) {
+  int bytes = static_cast<int>(size);
+  return device_->getProperty(id, data, &bytes) == openni::STATUS_OK;
+}
+
 void note_unplugged(const std::string& uri) {
   if (uri == virtual_uri()) ++unplugged;
 }

@@ -25,6 +25,7 @@ class OpenniDevice {
 
   openni::Device& get() { return *device_; }
   bool set_property(int id, const void* data, std::size_t size);
+  bool get_property(int id, void* data, std::size_t size);
 
  private:
   std::unique_ptr<openni::Device> device_;

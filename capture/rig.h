@@ -47,6 +47,7 @@ struct VirtualRig {
   int unplug_at_frame = -1;         ///< the sensor vanishes at this colour frame
   ColorResponse color_response;     ///< how its pixels encode light
   double crosstalk = 0;             ///< share of a LED's light that leaks into each adjacent channel
+  bool lamps_on_lines = false;      ///< real lines switch the virtual lamps: each is lit while its line reads so
   bool ignores_exposure = false;    ///< says yes to exposure and gain, and does nothing
   std::vector<std::string> stuck_on, stuck_off, dim;  ///< lamp ids
   std::vector<std::array<std::string, 2>> swapped;    ///< pairs of lamp ids wired the wrong way round

@@ -138,6 +138,7 @@ void read_virtual_rig(TomlReader& table, Rig& rig) {
     faults.color_response = parse_color_response(response);
   } catch (const UsageError& error) { table.refuse("color_response", error.what(), "correct it"); }
   table.read("crosstalk", faults.crosstalk, 0, 1);
+  table.read("lamps_on_lines", faults.lamps_on_lines);
   table.read("ignores_exposure", faults.ignores_exposure);
   faults.stuck_on = table.texts("stuck_on");
   faults.stuck_off = table.texts("stuck_off");
@@ -149,6 +150,14 @@ void read_virtual_rig(TomlReader& table, Rig& rig) {
   for (const std::string& id : faults.dim) check_lamp_id(table, "dim", id, rig);
   for (const auto& pair : faults.swapped) {
     for (const std::string& id : pair) check_lamp_id(table, "swapped", id, rig);
+  }
+}
+
+void require_lines(const TomlReader& file, const Rig& rig) {
+  for (const RigLamp& lamp : rig.lamps) {
+    if (wire_of(lamp.line).empty())
+      file.refuse("lamps", "hang on lines (lamps_on_lines), but '" + lamp.id + "' names none",
+                  "add line = \"NAME\", or chip = \"LABEL\" and offset = N");
   }
 }
 
@@ -181,6 +190,7 @@ Rig parse_rig(const std::string& text, const std::string& name) {
   if (rig.lamps.empty())
     file.refuse("lamps", "are missing", "add a [[lamps]] table a lamp (docs/rig-file.md)");
   if (virtual_table) read_virtual_rig(*virtual_table, rig);
+  if (rig.virtual_rig && rig.virtual_rig->lamps_on_lines) require_lines(file, rig);
   if (is_virtual && !rig.virtual_rig) rig.virtual_rig.emplace();
   if (rig.virtual_rig) rig.sensor.uri = "virtual";
   check_rgb_shot(file, rig);

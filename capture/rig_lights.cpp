@@ -13,7 +13,7 @@ constexpr std::chrono::milliseconds kGuardMargin{500};
 }  // namespace
 
 std::vector<GpioLine> gpio_lines(const Rig& rig) {
-  if (rig.virtual_rig)
+  if (rig.virtual_rig && !rig.virtual_rig->lamps_on_lines)
     throw UsageError("the lamps of \"" + rig.name +
                      "\" are virtual: no line switches them; give --rig FILE of a real rig");
   if (rig.lamps.empty())
@@ -25,15 +25,10 @@ std::vector<GpioLine> gpio_lines(const Rig& rig) {
   return lines;
 }
 
-std::unique_ptr<Lights> open_rig_lights(const Rig& rig) {
-  LightsOptions options;
-  options.max_on = std::chrono::milliseconds(rig.max_on_ms);
-  GpioBankOptions bank;
-  bank.max_on = options.max_on + kGuardMargin;
-  std::vector<std::string> ids;
-  ids.reserve(rig.lamps.size());
-  for (const RigLamp& lamp : rig.lamps) ids.push_back(lamp.id);
-  return std::make_unique<Lights>(std::move(ids), open_gpio_bank(gpio_lines(rig), bank), options);
+std::unique_ptr<LineBank> open_rig_bank(const Rig& rig) {
+  GpioBankOptions options;
+  options.max_on = std::chrono::milliseconds(rig.max_on_ms) + kGuardMargin;
+  return open_gpio_bank(gpio_lines(rig), options);
 }
 
 }  // namespace rakelight

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The lamps of a rig, over the GPIO lines that its file names.
+// The GPIO lines that a rig file names for its lamps.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,11 @@
 
 namespace rakelight {
 
-/// In the order of `rig.lamps`.
+/// In the order of `rig.lamps`. @throws UsageError for virtual lamps and for a rig without any
 std::vector<GpioLine> gpio_lines(const Rig& rig);
 
-/// All lamps of the rig, off, limited by `rig.max_on_ms`. It forks a guard: call it before starting threads.
-/// @throws std::system_error as open_gpio_bank(); UsageError for a virtual rig or one without lamps, which have no lines
-std::unique_ptr<Lights> open_rig_lights(const Rig& rig);
+/// The same lines, requested and off; a guard switches off what is lit for longer than `rig.max_on_ms`. Call it before
+/// starting threads. @throws as open_gpio_bank() and gpio_lines()
+std::unique_ptr<LineBank> open_rig_bank(const Rig& rig);
 
 }  // namespace rakelight

@@ -40,6 +40,15 @@ class VirtualBank : public LineBank {
     }
   }
 
+  /// The lamps themselves rather than their lines: a lamp that is burnt out is not lit.
+  std::vector<bool> read() override {
+    std::vector<char> lit(lamps_);
+    if (!device_->get_property(driver_protocol::kLamps, lit.data(), lit.size()))
+      throw openni_error(std::errc::io_error, "cannot read the virtual lamps",
+                         "open lamps and sensor with one rig");
+    return {lit.begin(), lit.end()};
+  }
+
  private:
   std::size_t lamps_;
   std::unique_ptr<OpenniDevice> device_;
@@ -71,6 +80,23 @@ std::string virtual_sensor_text(const Rig& rig) {
               {"dim", rules.dim},
               {"swapped", rules.swapped}}
       .dump();
+}
+
+GroundTruth virtual_truth(const Rig& rig) {
+  const cv::Size size(rig.sensor.color.width, rig.sensor.color.height);
+  GroundTruth truth{cv::Mat1f(size), cv::Mat3f(size), cv::Mat3f(size), {}};
+  std::vector<driver_protocol::TruthLamp> lamps(rig.lamps.size());
+  driver_protocol::TruthBuffers buffers{truth.depth.ptr<float>(), truth.normals.ptr<float>(),
+                                        truth.albedo.ptr<float>(), lamps.data()};
+  if (!open_openni_device(rig)->get_property(driver_protocol::kTruth, &buffers, sizeof buffers))
+    throw openni_error(std::errc::io_error, "cannot read the virtual sensor's truth",
+                       "open lamps and sensor with one rig");
+  for (std::size_t k = 0; k < lamps.size(); ++k) {
+    const RigLamp& lamp = rig.lamps[k];
+    truth.lamps.push_back({lamp.id, lamp.color, lamp.position_m.has_value(), lamp.position_m,
+                           Eigen::Vector3d(lamps[k].direction), Eigen::Vector3d(lamps[k].strength)});
+  }
+  return truth;
 }
 
 std::unique_ptr<LineBank> open_virtual_bank(const Rig& rig) { return std::make_unique<VirtualBank>(rig); }

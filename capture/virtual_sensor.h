@@ -20,4 +20,8 @@ std::string virtual_sensor_text(const Rig& rig);
 /// the sensor. @throws std::system_error if the virtual sensor's driver is not found, or refuses the rig.
 std::unique_ptr<LineBank> open_virtual_bank(const Rig& rig);
 
+/// What the virtual sensor's colour camera really has before it, on the grid of its images. While the sensor or its lamps are
+/// open this costs no new rendering. @throws std::system_error
+GroundTruth virtual_truth(const Rig& rig);
+
 }  // namespace rakelight

@@ -10,11 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "capture/open_rig.h"
 #include "capture/rig_file.h"
 #include "capture/rig_lights.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/lights_list.h"
+#include "cli/read_back.h"
 #include "stack/errors.h"
 
 namespace rakelight::cli {
@@ -32,13 +34,14 @@ struct Arguments {
 constexpr const char* kFooter = R"(Examples:
   rakelight lights list                              GPIO chips, their lines, and who holds them
   rakelight lights list --rig my-rig.toml            and which lamp is on which line
-  rakelight lights test --rig my-rig.toml            each lamp in turn, half a second each: look whether names fit
+  rakelight lights test --rig my-rig.toml            each lamp in turn, half a second each: look whether names fit.
+                                                     What lines read back is compared with what was written
   rakelight lights on white-3 --rig my-rig.toml      one lamp, as long as the rig allows (max_on_ms)
   rakelight lights on red green blue --for 0.5 --rig my-rig.toml
   rakelight lights off --rig my-rig.toml             writes "off" to every line
 
-No lamp stays lit: not after Ctrl-C, not after kill -9. Exit code 4: a line is missing, held by another program, or may
-not be used.)";
+No lamp stays lit: not after Ctrl-C, not after kill -9. Exit code 4: a line is missing, held by another program, may
+not be used, or does not follow what is written.)";
 
 void print_json(const json& report) {
   std::cout << report.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
@@ -70,6 +73,14 @@ double milliseconds(const SwitchTime& time) {
   return static_cast<double>(time.after_us - time.before_us) / 1000.0;
 }
 
+/// Virtual lamps last as long as the program that switches them: one lit by hand would be seen by nobody.
+void refuse_virtual_lamps(const Rig& rig) {
+  if (!rig.virtual_rig || rig.virtual_rig->lamps_on_lines) return;
+  throw UsageError(
+      "the lamps of \"" + rig.name +
+      "\" are virtual and nobody would see them; try each with 'rakelight lights test', or scan");
+}
+
 void run_on(const Arguments& arguments) {
   const Rig rig = read_rig(arguments.rig);
   for (const std::string& id : arguments.lamps) {
@@ -78,8 +89,9 @@ void run_on(const Arguments& arguments) {
     if (!known) throw UsageError("no lamp of " + arguments.rig.string() + " is called \"" + id + "\"");
   }
   const auto time = checked_time(arguments.seconds > 0 ? arguments.seconds : rig.max_on_ms / 1000.0, rig);
+  refuse_virtual_lamps(rig);
   catch_interrupts();
-  const auto lights = open_rig_lights(rig);
+  const auto lights = open_lights(rig);
   lights->show(arguments.lamps);
   wait(time);
   lights->all_off();
@@ -87,29 +99,46 @@ void run_on(const Arguments& arguments) {
 }
 
 void run_off(const Arguments& arguments) {
-  const auto lights = open_rig_lights(read_rig(arguments.rig));
+  const Rig rig = read_rig(arguments.rig);
+  refuse_virtual_lamps(rig);
+  const auto lights = open_lights(rig);
   const SwitchTime time = lights->all_off();
   if (arguments.json) print_json({{"off", lights->ids()}, {"write_ms", milliseconds(time)}});
+}
+
+json test_lamp(Lights& lights, const RigLamp& lamp, std::chrono::duration<double> time, bool print) {
+  const SwitchTime switched = lights.show({lamp.id});
+  wait(time);
+  const ReadBack found = read_back(lights, lamp.id);
+  lights.all_off();
+  if (print) {
+    std::printf("  %-16s %-6s %s, switched in %.1f ms: %s\n", lamp.id.c_str(), to_string(lamp.color).c_str(),
+                line_text(lamp.line).c_str(), milliseconds(switched), to_string(found).c_str());
+    std::fflush(stdout);
+  }
+  return {{"id", lamp.id},
+          {"line", line_text(lamp.line)},
+          {"switch_ms", milliseconds(switched)},
+          {"read_back", to_string(found)},
+          {"as_written", found.as_written()}};
 }
 
 void run_test(const Arguments& arguments) {
   const Rig rig = read_rig(arguments.rig);
   const auto time = checked_time(arguments.seconds > 0 ? arguments.seconds : 0.5, rig);
   catch_interrupts();
-  const auto lights = open_rig_lights(rig);
+  const auto lights = open_lights(rig);
   json tested = json::array();
+  std::string faulty;
   for (const RigLamp& lamp : rig.lamps) {
-    const SwitchTime lit = lights->show({lamp.id});
-    if (!arguments.json) {
-      std::printf("  %-16s %-6s %s, switched in %.1f ms\n", lamp.id.c_str(), to_string(lamp.color).c_str(),
-                  line_text(lamp.line).c_str(), milliseconds(lit));
-      std::fflush(stdout);
-    }
-    wait(time);
-    lights->all_off();
-    tested.push_back({{"id", lamp.id}, {"line", line_text(lamp.line)}, {"switch_ms", milliseconds(lit)}});
+    tested.push_back(test_lamp(*lights, lamp, time, !arguments.json));
+    if (!tested.back()["as_written"]) faulty += (faulty.empty() ? "" : ", ") + lamp.id;
   }
   if (arguments.json) print_json({{"tested", tested}});
+  if (!faulty.empty()) {
+    throw DeviceError("switched each lamp on alone, but it does not read so under " + faulty +
+                      "; check what drives and what loads these lines");
+  }
 }
 
 CLI::App* add_action(CLI::App& lights, const char* name, const char* what,

@@ -4,6 +4,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -30,6 +31,7 @@ struct Arguments {
   std::filesystem::path stack, output, config;
   std::optional<std::string> method, preset, mask, response, lamps, lamp_positions, solver;
   std::optional<int> scale, iterations, threads, frame, harmonics;
+  std::vector<std::string> outputs;
   bool json = false, no_smoothness = false;
 };
 
@@ -39,6 +41,7 @@ constexpr const char* kFooter = R"(Examples:
   rakelight refine my-scan -o out --preset paper          the paper to the letter
   rakelight refine my-scan -o out --mask object.png       another mask; 'auto': every pixel with depth
   rakelight refine my-scan -o out --response auto         find out whether colour values are linear
+  rakelight refine my-scan -o out --outputs depth,normals   no mesh, pictures, report: quicker
   rakelight refine my-scan -o out --config tuned.toml     parameters by their names in result.json
   rakelight refine my-scan -o out --json | jq .quality    the summary for scripts)";
 
@@ -58,6 +61,12 @@ std::vector<std::string> names_of() {
   return names;
 }
 
+std::vector<std::string> output_names() {
+  std::vector<std::string> names;
+  for (const Output output : kAllOutputs) names.push_back(to_string(output));
+  return names;
+}
+
 RefineOptions options_of(const Arguments& arguments) {
   RefineOptions options = read_options(
       arguments.config, {value_named<Preset>(arguments.preset), value_named<Method>(arguments.method)});
@@ -73,6 +82,16 @@ RefineOptions options_of(const Arguments& arguments) {
   options.lamps.harmonics = arguments.harmonics.value_or(options.lamps.harmonics);
   options.depth.solver = value_named<Solver>(arguments.solver).value_or(options.depth.solver);
   return options;
+}
+
+std::vector<Output> outputs_of(const Arguments& arguments) {
+  if (arguments.outputs.empty()) return kAllOutputs;
+  std::vector<Output> outputs;
+  for (const Output output : kAllOutputs) {
+    const auto& names = arguments.outputs;
+    if (std::find(names.begin(), names.end(), to_string(output)) != names.end()) outputs.push_back(output);
+  }
+  return outputs;
 }
 
 LightStack stack_of(const Arguments& arguments) {
@@ -103,25 +122,31 @@ void print_json(const RefineResult& result, const std::filesystem::path& folder)
   std::cout << summary.dump(2) << "\n";
 }
 
-void print_report(const RefineResult& result, const std::filesystem::path& folder) {
+bool has(const std::vector<Output>& outputs, Output output) {
+  return std::find(outputs.begin(), outputs.end(), output) != outputs.end();
+}
+
+void print_report(const RefineResult& result, const std::filesystem::path& folder, const std::vector<Output>& outputs) {
   std::cout << result.message << "\n"
             << folder.string() << ": " << result.camera.width << "x" << result.camera.height << " (scale "
-            << result.scale << "), " << result.iterations.size() << " iterations\n"
-            << "  surface  " << (folder / "mesh.ply").string() << "\n"
-            << "  picture  " << (folder / "before_after.png").string() << "\n"
-            << "  report   " << (folder / "report.html").string() << "\n";
+            << result.scale << "), " << result.iterations.size() << " iterations\n";
+  if (has(outputs, Output::mesh)) std::cout << "  surface  " << (folder / "mesh.ply").string() << "\n";
+  if (has(outputs, Output::pictures)) std::cout << "  picture  " << (folder / "before_after.png").string() << "\n";
+  if (has(outputs, Output::report)) std::cout << "  report   " << (folder / "report.html").string() << "\n";
 }
 
 int run(const Arguments& arguments) {
   catch_interrupts();
-  const RefineOptions options = options_of(arguments);
+  RefineOptions options = options_of(arguments);
+  const std::vector<Output> outputs = outputs_of(arguments);
+  if (!has(outputs, Output::uncertainty)) options.uncertainty_samples = 0;
   check_result_folder(arguments.output);
   const LightStack stack = stack_of(arguments);
   const RefineResult result = refine_with_bar(stack, options);
   if (interrupted()) throw Cancelled();
   for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
-  write_result(result, arguments.output, &stack);
-  arguments.json ? print_json(result, arguments.output) : print_report(result, arguments.output);
+  write_result(result, arguments.output, &stack, outputs);
+  arguments.json ? print_json(result, arguments.output) : print_report(result, arguments.output, outputs);
   if (result.termination != Termination::diverged) return 0;
   spdlog::warn("refine: did not converge: {}", result.message);
   return kNotConverged;
@@ -167,11 +192,17 @@ void add_refine_command(CLI::App& program, int& exit_code) {
                    "What colour values mean, instead of what the stack says; auto finds the exponent that\n"
                    "agrees with the lighting model, and keeps what the stack says where it is not sure")
       ->type_name("linear|srgb|GAMMA|auto");
+  command
+      ->add_option("--outputs", arguments->outputs,
+                   "Parts of the result to write, separated by commas; default: all")
+      ->delimiter(',')
+      ->check(CLI::IsMember(output_names()))
+      ->type_name("depth,normals,albedo,uncertainty,mesh,pictures,report");
   command->add_option("--iterations", arguments->iterations, "Outer iterations at most")
       ->check(CLI::Range(1, 1000));
   command
       ->add_option("--solver", arguments->solver,
-                   "Of the multi-light depth step: multigrid (default), or exact, the slower reference")
+                   "Of the depth and albedo systems: multigrid (default), or exact, the slower reference")
       ->check(CLI::IsMember(names_of<Solver>()));
   command->add_option("--config", arguments->config, "Parameters from a TOML file; options here override it")
       ->type_name("FILE");

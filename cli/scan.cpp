@@ -14,6 +14,7 @@
 #include "capture/open_rig.h"
 #include "capture/rig_file.h"
 #include "capture/scan_folder.h"
+#include "capture/virtual_sensor.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
@@ -22,12 +23,7 @@
 #include "refine/refine.h"
 #include "stack/errors.h"
 #include "stack/stack_io.h"
-
-#ifdef RAKELIGHT_HAS_SIMULATE
-#include "capture/virtual_sensor.h"
-#include "simulate/virtual_sensor/virtual_scene.h"
 #include "stack/truth_io.h"
-#endif
 
 namespace rakelight::cli {
 namespace {
@@ -58,7 +54,12 @@ constexpr const char* kFooter = R"(Examples:
 A scan that is interrupted (130; closing the window of --view does it, too) or loses its sensor (4) switches the lamps off and keeps the images it has.)";
 
 Rig rig_of(const Arguments& arguments) {
-  return arguments.rig.empty() ? virtual_rig() : read_rig(arguments.rig);
+  Rig rig = arguments.rig.empty() ? virtual_rig() : read_rig(arguments.rig);
+  if (!is_recording(rig)) return rig;
+  throw UsageError(
+      "scan: the sensor of " + arguments.rig.string() + " is the recording " + rig.sensor.uri +
+      ", which no lamp changes any more; refine a stack as it is, and turn an .oni file into one with "
+      "'rakelight import oni'");
 }
 
 std::string lamp_text(const Frame& frame) { return frame.light ? "lamp " + *frame.light : "no lamp"; }
@@ -87,9 +88,14 @@ std::string kept(ScanFolder& folder, const Arguments& arguments) {
          ": complete the scan with 'rakelight scan" + rig + " -o " + arguments.output.string() + " --resume'";
 }
 
+struct Scanned {
+  ScanResult scan;
+  std::optional<GroundTruth> truth;  ///< what a virtual sensor looked at
+};
+
 /// @param lights given back as soon as the scan is over, whatever follows
-ScanResult scan_with_bar(const Rig& rig, const std::unique_ptr<Lights> lights, const Arguments& arguments,
-                         ScanFolder& folder, const ScanView& view) {
+Scanned scan_with_bar(const Rig& rig, const std::unique_ptr<Lights> lights, const Arguments& arguments,
+                      ScanFolder& folder, const ScanView& view) {
   ProgressBar bar;
   const auto show = [&](const ScanProgress& progress) {
     bar.show({progress.stage, progress.fraction_done});
@@ -99,8 +105,11 @@ ScanResult scan_with_bar(const Rig& rig, const std::unique_ptr<Lights> lights, c
   try {
     const auto source =
         view.watched(open_frame_source(rig), rig.calibration.color_response.value_or(ColorResponse()));
-    return capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder, view),
-                         show);
+    Scanned scanned{
+        capture_stack({*source, *lights, monotonic_clock()}, rig, options_of(arguments, folder, view), show),
+        {}};
+    if (rig.virtual_rig) scanned.truth = virtual_truth(rig);
+    return scanned;
   } catch (const Cancelled&) { throw Cancelled(kept(folder, arguments)); } catch (const SensorLost& lost) {
     throw DeviceError(std::string(lost.what()) + "; " + kept(folder, arguments));
   }
@@ -113,16 +122,10 @@ void put_mask(LightStack& stack, const std::string& mask) {
     spdlog::warn("scan: no object stands out in depth and light, so the stack has no mask");
 }
 
-/// What the virtual sensor looked at, for `evaluate`, beside the images.
-void write_virtual_truth(const Rig& rig, const fs::path& stack) {
-#ifdef RAKELIGHT_HAS_SIMULATE
-  if (!rig.virtual_rig) return;
-  const VirtualSensorSetup setup = parse_virtual_setup(virtual_sensor_text(rig));
+/// For `evaluate`, beside the images.
+void write_truth_of(const fs::path& stack, const GroundTruth& truth) {
   fs::create_directories(stack / "truth");
-  write_truth(VirtualScene(setup).truth(setup.color_size), stack / "truth");
-#else
-  (void)rig, (void)stack;
-#endif
+  write_truth(truth, stack / "truth");
 }
 
 RefineResult refine_with_bar(const LightStack& stack, ScanView& view) {
@@ -192,11 +195,11 @@ int refine_and_write(const LightStack& stack, const Arguments& arguments, json& 
 int scan_and_refine(const Rig& rig, std::unique_ptr<Lights> lights, const Arguments& arguments,
                     ScanView& view) {
   ScanFolder folder(arguments.output, arguments.resume);
-  ScanResult scan = scan_with_bar(rig, std::move(lights), arguments, folder, view);
+  auto [scan, truth] = scan_with_bar(rig, std::move(lights), arguments, folder, view);
   scan.stack.origin = arguments.output.string();
   put_mask(scan.stack, arguments.mask);
   folder.finish(scan.stack);
-  write_virtual_truth(rig, arguments.output);
+  if (truth) write_truth_of(arguments.output, *truth);
   for (const std::string& warning : scan.warnings) spdlog::warn("scan: {}", warning);
   if (!arguments.json) print_report(scan, arguments);
   json report = report_json(scan, arguments);

@@ -11,8 +11,11 @@
 
 namespace rakelight {
 
-/// Sets the line that it holds while it lives; releases it afterwards. @throws std::system_error
-using OutputLine = std::function<void(bool lit)>;
+/// A line, held while a copy of this lives. Both throw std::system_error.
+struct OutputLine {
+  std::function<void(bool lit)> set;
+  std::function<bool()> get;  ///< the level that the chip tells, which is another than was set if the line is stuck
+};
 
 /// One request a line: adapters on USB change lines one by one anyway, and a line is written without its neighbours.
 /// @throws std::system_error with the kernel's error number

@@ -35,10 +35,17 @@ class GpioBank : public LineBank {
     }
   }
 
+  std::vector<bool> read() override {
+    std::vector<bool> levels(lines_.size());
+    for (std::size_t k = 0; k < lines_.size(); ++k)
+      explained(lines_[k], [&] { levels[k] = outputs_[k].get(); });
+    return levels;
+  }
+
  private:
   void set(std::size_t k, bool lit) {
     if (lit) written_[k] = true;  // even if it fails: it may be lit now
-    explained(lines_[k], [&] { outputs_[k](lit); });
+    explained(lines_[k], [&] { outputs_[k].set(lit); });
     written_[k] = lit;
   }
 

@@ -15,7 +15,7 @@ OutputLine request_output(const std::string& chip_path, unsigned offset, bool ac
   gpiod::line_request request = {consumer, gpiod::line_request::DIRECTION_OUTPUT, {}};
   if (active_low) request.flags |= gpiod::line_request::FLAG_ACTIVE_LOW;
   line.request(request, 0);  // logical 0, as all levels here
-  return [line](bool lit) { line.set_value(lit ? 1 : 0); };
+  return {[line](bool lit) { line.set_value(lit ? 1 : 0); }, [line] { return line.get_value() != 0; }};
 }
 
 GpioChip read_gpio_chip(const std::string& path) {

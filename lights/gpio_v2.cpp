@@ -18,9 +18,10 @@ OutputLine request_output(const std::string& chip_path, unsigned offset, bool ac
   gpiod::chip chip(chip_path);
   auto request = std::make_shared<gpiod::line_request>(
       chip.prepare_request().set_consumer(consumer).add_line_settings(offset, settings).do_request());
-  return [request, offset](bool lit) {
+  const auto set = [request, offset](bool lit) {
     request->set_value(offset, lit ? gpiod::line::value::ACTIVE : gpiod::line::value::INACTIVE);
   };
+  return {set, [request, offset] { return request->get_value(offset) == gpiod::line::value::ACTIVE; }};
 }
 
 GpioChip read_gpio_chip(const std::string& path) {

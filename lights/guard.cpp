@@ -40,6 +40,7 @@ class GuardedBank : public LineBank {
   void write_changes(const std::vector<bool>& lit) override {
     announced(lit, [&] { bank_->write_changes(lit); });
   }
+  std::vector<bool> read() override { return bank_->read(); }
 
  private:
   /// The guard learns of light before there is any, and of darkness when it is certain.

@@ -54,7 +54,9 @@ struct Lights::State {
 
   /// Off comes first: adapters change lines one by one, and two lamps must never be lit by the way.
   void switch_to(const std::vector<bool>& lit) {
-    bank->write_changes(std::vector<bool>(lit.size(), false));
+    const std::vector<bool> dark(lit.size(), false);
+    bank->write_changes(dark);
+    if (lit == dark) return watchdog.stop();
     watchdog.start();
     try {
       bank->write_changes(lit);
@@ -87,7 +89,6 @@ Lights::~Lights() {
 const std::vector<std::string>& Lights::ids() const { return state_->ids; }
 
 SwitchTime Lights::show(const std::vector<std::string>& ids) {
-  if (ids.empty()) return all_off();
   const std::vector<bool> lit = state_->levels(ids);
   const std::lock_guard lock(state_->mutex);
   SwitchTime time;
@@ -105,6 +106,16 @@ SwitchTime Lights::all_off() {
   time.after_us = now_us();
   state_->watchdog.stop();
   return time;
+}
+
+std::vector<std::string> Lights::lit() const {
+  const std::lock_guard lock(state_->mutex);
+  const std::vector<bool> levels = state_->bank->read();
+  std::vector<std::string> lit;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    if (levels[k]) lit.push_back(state_->ids[k]);
+  }
+  return lit;
 }
 
 bool Lights::watchdog_tripped() const {

@@ -26,6 +26,9 @@ class LineBank {
   /// Sets at least the lines that differ from the last write. A bank on which every line costs time (a USB adapter
   /// takes milliseconds for each) leaves the others alone. @throws as write()
   virtual void write_changes(const std::vector<bool>& lit) { write(lit); }
+  /// The levels that the lines are at, as the bank sees them: a line that is stuck is at another than was written.
+  /// @throws std::system_error naming what was attempted on which line.
+  virtual std::vector<bool> read() = 0;
 };
 
 /// When lamps were switched, on the host's monotonic clock, in microseconds: every edge, of the old lamps going off
@@ -50,11 +53,14 @@ class Lights {
   Lights& operator=(const Lights&) = delete;
 
   const std::vector<std::string>& ids() const;
-  /// All off, then exactly these on. An empty list is all_off(). If a line fails, all are off again, as far as they
-  /// still obey. @throws std::invalid_argument for an unknown id, std::system_error where a line cannot be switched.
+  /// What is lit off, then exactly these on, none for an empty list. A lamp goes off and comes on as long after the write
+  /// as with any other call: lines that stay as they are are not written. If a line fails, all are off again, as far as
+  /// they still obey. @throws std::invalid_argument for an unknown id, std::system_error where a line cannot be switched.
   SwitchTime show(const std::vector<std::string>& ids);
   /// Writes "off" to every line, whatever was written before. @throws std::system_error
   SwitchTime all_off();
+  /// The ids of the lamps whose lines are at "lit", whatever was written. @throws std::system_error
+  std::vector<std::string> lit() const;
   /// Whether the watchdog has had to switch a lamp off since the last show().
   bool watchdog_tripped() const;
 

@@ -196,7 +196,7 @@ ErrorBarReport evaluate_error_bars(const Camera& camera, const cv::Mat1f& depth,
       if (angle_deg(c.normals(y, x), c.true_normals(y, x)) * CV_PI / 180 < bar[1]) ++angles_within;
     }
   }
-  const double offset = mean(errors);
+  const double offset = median(errors);
   int within = 0;
   for (size_t i = 0; i < errors.size(); ++i) within += std::abs(errors[i] - offset) < deviations[i];
   return {within / static_cast<double>(errors.size()), angles_within / static_cast<double>(angles)};

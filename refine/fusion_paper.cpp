@@ -14,19 +14,20 @@
 namespace rakelight {
 namespace {
 
-Observations grey(const Observations& image) {
+/// The image with its mean in all three channels.
+Observations grey_image(const Observations& image) {
+  std::vector<float> mean(static_cast<size_t>(image.pixels));
+  const std::vector<unsigned char> usable(mean.size(), 1);
+  for (int p = 0; p < image.pixels; ++p) mean[static_cast<size_t>(p)] = image.radiance_at(0, p).mean();
   Observations out = image;
-  const auto pixels = static_cast<size_t>(image.pixels);
-  for (size_t p = 0; p < pixels; ++p) {
-    const float mean =
-        (image.radiance[p] + image.radiance[p + pixels] + image.radiance[p + 2 * pixels]) / 3.0f;
-    for (size_t c = 0; c < 3; ++c) out.radiance[c * pixels + p] = mean;
-  }
+  for (int c = 0; c < 3; ++c) out.set_channel(0, c, mean.data(), usable.data());
   return out;
 }
 
-Eigen::VectorXd channel_of(const Observations& image, int c) {
-  return Eigen::Map<const Eigen::VectorXf>(image.channel(0, c), image.pixels).cast<double>();
+Eigen::VectorXd grey(const Observations& image) {
+  Eigen::VectorXd mean(image.pixels);
+  for (int p = 0; p < image.pixels; ++p) mean[p] = static_cast<double>(image.radiance_at(0, p).mean());
+  return mean;
 }
 
 }  // namespace
@@ -35,13 +36,13 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
                                       const FusionModel& model, const IterationCallback& after_iteration) {
   MethodResult result;
   SurfaceState& state = result.state = initial_state(problem, options);
-  const Observations image = grey(problem.images);
-  const Eigen::VectorXd I = channel_of(image, 0);
+  const Observations image = grey_image(problem.images);
+  const Eigen::VectorXd I = grey(problem.images);
   const Eigen::VectorXd z0 = problem.prior.start.array().exp().matrix() / model.unit_m;
   const double k = problem.grid.camera.fx / z0.mean();
   Eigen::VectorXd z = z0;
 
-  state.normals = orthographic_normals(problem.corners, z, k);
+  state.normals = orthographic_normals(problem.grid, problem.corners, z, k);
   state.lamps = estimate_far_lamps(image, state);  // Eq. (9)
   const Lamp lamp = state.lamps.front();
   Eigen::VectorXd S(z.size());
@@ -64,14 +65,14 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
   for (int t = 1; solved && t <= options.max_iterations; ++t) {
     IterationReport report;
     report.index = t;
-    GradientProblem depth{problem.corners, shading_rows(problem.corners, lamp, rho, I - beta, z, k),
+    GradientProblem depth{problem.grid, problem.corners, shading_rows(problem.grid, problem.corners, lamp, rho, I - beta, z, k),
                           options.depth.sensor_weight, z0, smoothness};
     report.energy_before_depth = gradient_energy(depth, z);
     if (t == 1) best = report.energy_before_depth;
     Eigen::VectorXd next = z;
     solved = solve_gradient_rows(depth, solver, next) && next.minCoeff() > 0;
     if (!solved) break;
-    depth.rows = shading_rows(problem.corners, lamp, rho, I - beta, next, k);
+    depth.rows = shading_rows(problem.grid, problem.corners, lamp, rho, I - beta, next, k);
     report.energy = gradient_energy(depth, next);
     report.depth_change_mm =
         1e3 * model.unit_m * std::sqrt((next - z).squaredNorm() / static_cast<double>(z.size()));

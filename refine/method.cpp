@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "refine/pixel_blocks.h"
 #include "refine/steps/robust_weights.h"
 
 namespace rakelight {
@@ -21,7 +22,13 @@ SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& op
 }
 
 double rms_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  return 1e3 * std::sqrt((after.array().exp() - before.array().exp()).square().mean());
+  const double sum = sum_over_blocks(static_cast<int>(before.size()), 0.0, [&](int begin, int end) {
+    const auto first = before.segment(begin, end - begin), last = after.segment(begin, end - begin);
+    const Eigen::ArrayXf middle = (0.5 * (first + last)).cast<float>(), turn = (last - first).cast<float>();
+    const auto part = static_cast<double>((middle.exp() * turn).square().sum());  // z'' - z' = z (zeta'' - zeta') + O(cube)
+    return part;
+  });
+  return 1e3 * std::sqrt(sum / static_cast<double>(before.size()));
 }
 
 }  // namespace rakelight

@@ -22,6 +22,9 @@ namespace {
 /// to the sensor, and edge weights would take the sensor's steps for edges and tear the surface there.
 constexpr int kWarmUp = 8;
 
+/// Of a step's linear system (DepthSolver): the next step starts from where this one ends, so exact ones gain nothing.
+constexpr double kStepTolerance = 0.01;
+
 /// Factor on the Cauchy scale: wide at first, tight at the end. Judged on the start's normals, samples would be dropped
 /// for good on one side of a shadow and kept on the other, and the surface would tear between them.
 double cauchy_annealing(int iteration) {
@@ -94,13 +97,13 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   SurfaceState& state = result.state = initial_state(problem, options);
   const auto solver = options.depth.solver == Solver::exact
                           ? make_cholesky_depth_solver(problem.grid, problem.prior.cells)
-                          : make_multigrid_depth_solver(problem.grid, problem.prior.cells);
+                          : make_multigrid_depth_solver(problem.grid, problem.prior.cells, kStepTolerance);
   const double model_error = options.trust.model_error * median_radiance(images);
   LampEstimator lamps(options.lamps);
   DepthPrior prior = problem.prior;
   MeasuredNoise noise;
-  std::vector<PhotometricTensor> tensors;
-  std::vector<std::array<float, 4>> weights;
+  PhotometricTensors tensors(static_cast<size_t>(images.pixels));
+  CornerWeights weights;
 
   for (int t = 1; t <= options.max_iterations; ++t) {
     IterationReport report;
@@ -111,16 +114,18 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
 
     lamps.update(problem, prior, state, t);  // Eq. (26)
     if (t == 1) require_three_directions(images, state, result);
-    state.albedo = estimate_albedo(images, state);  // Eq. (27)
+    const Observations& matt = lamps.matt_images(images);
+    state.albedo = estimate_albedo(matt, state);  // Eq. (27)
     normalize_albedo(state);
-    report.residual_scale = std::max(residual_scale(images, state), model_error);
+    report.residual_scale = std::max(residual_scale(matt, state), model_error);
     if (options.trust.cauchy_scale > 0)
-      state.weight = cauchy_weights(images, state,
-                                    cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale);
+      reweigh_and_accumulate(matt, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale, state,
+                             tensors);
+    else
+      tensors = accumulate_tensors(matt, state);
 
     noise = measured_errors(problem, state, t, t <= kWarmUp ? model_error : report.residual_scale);
     prior.cell_weight = sensor_weight(options.depth, noise) * problem.prior.cell_weight;
-    tensors = accumulate_tensors(images, state);
     const double edge_weight = t > kWarmUp ? options.trust.edge_weight : 0;
     weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
     const DepthProblem depth{problem.grid, problem.corners, tensors, weights, prior};
@@ -152,9 +157,9 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   result.message += "; " + lamps.explanation();
-  result.lamp_uncertainty = lamps.uncertainty(problem, prior, state);
+  result.lamp_uncertainty = lamps.positions(problem, prior, state);
   result.uncertainty =
-      estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, images, state, *solver,
+      estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, lamps.matt_images(images), state,
                            result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
   result.quality["far_over_near_residual"] = lamps.far_over_near();
   result.quality["image_noise"] = noise.image;

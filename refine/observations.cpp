@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/observations.h"
 
+#include <algorithm>
+#include <limits>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "stack/color_response.h"
@@ -18,25 +21,32 @@ cv::Matx33d intrinsic_matrix(const Camera& camera) {
 /// Brings full-size colour images to the grid: removes lens distortion, then averages blocks.
 class ColorSampler {
  public:
-  ColorSampler(const Camera& color_camera, const Camera& grid_camera) : size_(grid_camera.size()) {
+  ColorSampler(const Camera& color_camera, const Camera& grid_camera)
+      : full_(color_camera.size()), size_(grid_camera.size()) {
     if (color_camera.distortion.empty()) return;
     const cv::Matx33d K = intrinsic_matrix(color_camera);
     cv::initUndistortRectifyMap(K, color_camera.distortion, cv::noArray(), K, color_camera.size(), CV_32FC1, map_x_,
                                 map_y_);
   }
 
+  /// The part of the full-size image that a part of the grid is sampled from: that part where pixels stay where they are,
+  /// else everything.
+  cv::Rect needed(const cv::Rect& part, cv::Size full) const {
+    return map_x_.empty() && full == size_ ? part : cv::Rect({0, 0}, full);
+  }
+
   template <class Image>
   Image operator()(const Image& full) const {
     Image straight = full;
     if (!map_x_.empty()) cv::remap(full, straight, map_x_, map_y_, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
-    if (straight.size() == size_) return straight;
+    if (straight.size() == size_ || straight.size() != full_) return straight;
     Image small;
     cv::resize(straight, small, size_, 0, 0, cv::INTER_AREA);
     return small;
   }
 
  private:
-  cv::Size size_;
+  cv::Size full_, size_;
   cv::Mat map_x_, map_y_;
 };
 
@@ -60,42 +70,120 @@ const Light& light_of(const LightStack& stack, const Frame& frame) {
                    "list it under lights");
 }
 
-void append_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& clipped, Observations& out) {
-  const size_t start = out.radiance.size();
-  const size_t count = static_cast<size_t>(out.pixels);
-  out.radiance.resize(start + 3 * count);
-  out.usable.resize(start + 3 * count);
-  for (size_t p = 0; p < count; ++p) {
-    const cv::Vec3f& value = color(grid.pixels[p]);
-    for (int c = 0; c < 3; ++c) {
-      const size_t at = start + static_cast<size_t>(c) * count + p;
-      out.radiance[at] = value[c];
-      out.usable[at] = clipped(grid.pixels[p])[c] == 0;
+/// Colour of the grid's pixels as an image's samples. @param origin of the images on the grid's camera
+void set_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& clipped, cv::Point origin, int image,
+               Observations& out) {
+  std::vector<float> radiance(static_cast<size_t>(grid.size()));
+  std::vector<unsigned char> usable(radiance.size());
+  for (int c = 0; c < 3; ++c) {
+    for (size_t p = 0; p < radiance.size(); ++p) {
+      radiance[p] = color(grid.pixels[p] - origin)[c];
+      usable[p] = clipped(grid.pixels[p] - origin)[c] == 0;
     }
+    out.set_channel(image, c, radiance.data(), usable.data());
   }
 }
 
 }  // namespace
 
+Observations::Observations(int pixel_count, int image_count)
+    : pixels(pixel_count),
+      images(image_count),
+      codes_(3 * static_cast<size_t>(image_count) * static_cast<size_t>(pixel_count), ChannelSamples::kUnusable),
+      encoding_(3 * static_cast<size_t>(image_count)) {}
+
+void Observations::set_channel(int image, int channel, const float* radiance, const unsigned char* usable) {
+  constexpr float kSteps = 65534;
+  float least = std::numeric_limits<float>::infinity(), most = -least;
+  for (int p = 0; p < pixels; ++p) {
+    if (usable[p] == 0) continue;
+    least = std::min(least, radiance[p]);
+    most = std::max(most, radiance[p]);
+  }
+  const size_t at = 3 * static_cast<size_t>(image) + static_cast<size_t>(channel);
+  std::uint16_t* codes = codes_.data() + at * static_cast<size_t>(pixels);
+  if (!(most >= least)) {
+    std::fill_n(codes, pixels, ChannelSamples::kUnusable);
+    return;
+  }
+  encoding_[at] = {(most - least) / kSteps, least};
+  const float per_step = most > least ? kSteps / (most - least) : 0;
+  for (int p = 0; p < pixels; ++p) {
+    const auto code = static_cast<std::uint16_t>(std::min(kSteps, std::max(0.0f, (radiance[p] - least) * per_step)) + 0.5f);
+    codes[p] = usable[p] != 0 ? code : ChannelSamples::kUnusable;
+  }
+}
+
+PlainSamples Observations::plain() const {
+  PlainSamples samples;
+  samples.radiance.reserve(codes_.size());
+  samples.usable.reserve(codes_.size());
+  for (int i = 0; i < images; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const ChannelSamples from = channel(i, c);
+      for (int p = 0; p < pixels; ++p) {
+        samples.radiance.push_back(from[p]);
+        samples.usable.push_back(from.usable(p));
+      }
+    }
+  }
+  return samples;
+}
+
+void Observations::set(const PlainSamples& samples) {
+  for (int i = 0; i < images; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const size_t at = (3 * static_cast<size_t>(i) + static_cast<size_t>(c)) * static_cast<size_t>(pixels);
+      set_channel(i, c, samples.radiance.data() + at, samples.usable.data() + at);
+    }
+  }
+}
+
+Observations Observations::only(int image) const {
+  const auto i = static_cast<size_t>(image);
+  Observations one(pixels, 1);
+  for (int c = 0; c < 3; ++c) one.copy_channel(*this, image, 0, c);
+  one.light_ids = {light_ids[i]};
+  one.frame_index = {frame_index[i]};
+  one.colored_lamps = {colored_lamps[i]};
+  one.lamp_positions = {lamp_positions[i]};
+  return one;
+}
+
+void Observations::copy_channel(const Observations& from, int from_image, int image, int channel) {
+  const size_t at = 3 * static_cast<size_t>(image) + static_cast<size_t>(channel),
+               source = 3 * static_cast<size_t>(from_image) + static_cast<size_t>(channel);
+  std::copy_n(from.codes_.data() + source * static_cast<size_t>(pixels), pixels,
+              codes_.data() + at * static_cast<size_t>(pixels));
+  encoding_[at] = from.encoding_[source];
+}
+
 Observations observe(const LightStack& stack, const PixelGrid& grid) {
-  Observations out;
-  out.pixels = grid.size();
-  const ColorSampler sample(stack.color_camera, grid.camera);
-  const cv::Mat3f ambient = ambient_image(stack);
-  for (const Frame& frame : stack.frames) {
-    if (!frame.light || frame.color.empty()) continue;
-    cv::Mat3f color = linear_color(stack, frame);
-    if (!ambient.empty()) color -= ambient;
-    cv::Mat3b clipped = saturated_channels(frame);
-    if (!stack.color_crosstalk.isIdentity()) cv::merge(std::vector<cv::Mat>(3, saturated(frame)), clipped);
-    append_image(grid, sample(color), sample(clipped), out);
-    const Light& light = light_of(stack, frame);
+  std::vector<const Frame*> lit;
+  for (const Frame& frame : stack.frames)
+    if (frame.light && !frame.color.empty()) lit.push_back(&frame);
+  Observations out(grid.size(), static_cast<int>(lit.size()));
+  for (const Frame* frame : lit) {
+    const Light& light = light_of(stack, *frame);
     out.light_ids.push_back(light.id);
     out.colored_lamps.push_back(light.color == LampColor::rgb);
     out.lamp_positions.push_back(light.position_m);
-    out.frame_index.push_back(frame.index);
-    ++out.images;
+    out.frame_index.push_back(frame->index);
   }
+  const ColorSampler sample(stack.color_camera, grid.camera);
+  const cv::Mat3f ambient = ambient_image(stack);
+  const cv::Rect needed = sample.needed(grid.box, stack.color_camera.size());
+  cv::parallel_for_(cv::Range(0, out.images), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      Frame frame;
+      frame.color = lit[static_cast<size_t>(i)]->color(needed);
+      cv::Mat3f color = linear_color(stack, frame);
+      if (!ambient.empty()) color -= ambient(needed);
+      cv::Mat3b clipped = saturated_channels(frame);
+      if (!stack.color_crosstalk.isIdentity()) cv::merge(std::vector<cv::Mat>(3, saturated(frame)), clipped);
+      set_image(grid, sample(color), sample(clipped), needed.size() == grid.box.size() ? needed.tl() : cv::Point(), i, out);
+    }
+  });
   return out;
 }
 

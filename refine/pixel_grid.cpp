@@ -2,7 +2,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/pixel_grid.h"
 
+#include <algorithm>
+
 namespace rakelight {
+namespace {
+
+void find_runs(PixelGrid& grid) {
+  if (grid.pixels.empty()) return;
+  int left = grid.index.cols, right = -1, row = grid.pixels.front().y;
+  grid.first_run.push_back(0);
+  for (int p = 0; p < grid.size(); ++p) {
+    const cv::Point at = grid.pixels[static_cast<size_t>(p)];
+    left = std::min(left, at.x);
+    right = std::max(right, at.x);
+    for (; row < at.y; ++row) grid.first_run.push_back(static_cast<int>(grid.runs.size()));
+    const bool continues = p > 0 && grid.pixels[static_cast<size_t>(p) - 1] == at - cv::Point(1, 0);
+    if (!continues) grid.runs.push_back({p, 0, at.x});
+    ++grid.runs.back().count;
+  }
+  grid.first_run.push_back(static_cast<int>(grid.runs.size()));
+  const int top = grid.pixels.front().y;
+  grid.box = {left, top, right - left + 1, row - top + 1};
+}
+
+}  // namespace
 
 PixelGrid make_pixel_grid(const Camera& camera, const cv::Mat1b& mask) {
   PixelGrid grid;
@@ -25,6 +48,7 @@ PixelGrid make_pixel_grid(const Camera& camera, const cv::Mat1b& mask) {
     grid.neighbor[kLeft].push_back(number_at(p.x - 1, p.y));
     grid.neighbor[kUp].push_back(number_at(p.x, p.y - 1));
   }
+  find_runs(grid);
   return grid;
 }
 

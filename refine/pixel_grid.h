@@ -15,12 +15,21 @@ namespace rakelight {
 
 enum Neighbor { kRight = 0, kDown = 1, kLeft = 2, kUp = 3 };
 
+/// Pixels of a row without a gap: first, first + 1, ... from column x on.
+struct PixelRun {
+  int first = 0, count = 0, x = 0;
+};
+
 /// Pixels of the mask in row-major order, with their neighbours inside the mask.
 struct PixelGrid {
   Camera camera;
   cv::Mat1i index;                               ///< number of a pixel, -1 outside the mask
   std::vector<cv::Point> pixels;                 ///< (u, v) of each number
   std::array<std::vector<int>, 4> neighbor;      ///< by Neighbor: number of the neighbour, -1 if outside
+
+  cv::Rect box;                                  ///< bounds of the mask
+  std::vector<PixelRun> runs;                    ///< all pixels, row by row
+  std::vector<int> first_run;                    ///< [row of the box]: its first run; one more at the end
 
   int size() const { return static_cast<int>(pixels.size()); }
 };

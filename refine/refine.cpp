@@ -85,7 +85,7 @@ std::vector<LightEstimate> light_estimates(const Observations& images, const Met
       estimate.sh_rgb.row(c) << light.l.row(c).cast<double>(), static_cast<double>(light.phi[c]);
     if (lamp.second_order) estimate.second_order_rgb = second_order_rows(lamp);
     if (lamp.near) {
-      estimate.position_m = lamp_position(lamp, state.scene);
+      estimate.position_m = method.lamp_uncertainty[i].position;
       estimate.distance_deviation_m = method.lamp_uncertainty[i].distance_deviation;
       estimate.direction_deviation_rad = method.lamp_uncertainty[i].direction_deviation;
     }

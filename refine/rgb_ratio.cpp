@@ -15,7 +15,9 @@ namespace rakelight {
 namespace {
 
 Eigen::VectorXd channel_of(const Observations& image, int c) {
-  return Eigen::Map<const Eigen::VectorXf>(image.channel(0, c), image.pixels).cast<double>();
+  Eigen::VectorXd radiance(image.pixels);
+  for (int p = 0; p < image.pixels; ++p) radiance[p] = static_cast<double>(image.channel(0, c)[p]);
+  return radiance;
 }
 
 /// Shading of the image at a pixel, without attached shadows.
@@ -79,7 +81,7 @@ MethodResult ratio_as_printed(const RefineProblem& problem, const RefineOptions&
     report.index = t;
     if (!(solved = diffuse(problem, options.albedo, state))) break;  // Eq. (20)
     normalize_albedo(state);
-    GradientProblem depth{problem.corners, ratio_rows(problem.grid, problem.images, state),
+    GradientProblem depth{problem.grid, problem.corners, ratio_rows(problem.grid, problem.images, state),
                           options.depth.sensor_weight, problem.prior.start, smoothness};
     report.energy_before_depth =
         gradient_energy(depth, state.zeta) + photometric_energy(problem.images, state);

@@ -3,6 +3,7 @@
 #include "refine/shading.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -44,8 +45,11 @@ Eigen::Matrix3Xf smoothed(const PixelGrid& grid, const Eigen::Matrix3Xf& normals
 
 /// The image as it would be were the object white: I / rho; not usable where the albedo is too dark to divide by.
 Observations shading_image(const Observations& image, const SurfaceState& state, ImageLight light) {
-  Observations out = image;
   const auto pixels = static_cast<size_t>(image.pixels);
+  std::array<std::vector<float>, 3> radiance;
+  std::array<std::vector<unsigned char>, 3> can_be_used;
+  radiance.fill(std::vector<float>(pixels));
+  can_be_used.fill(std::vector<unsigned char>(pixels));
   for (int p = 0; p < image.pixels; ++p) {
     Eigen::Vector3f usable = image.usable_channels(0, p);
     Eigen::Vector3f S;
@@ -58,11 +62,12 @@ Observations shading_image(const Observations& image, const SurfaceState& state,
       usable.setConstant(usable.maxCoeff());
     }
     for (size_t c = 0; c < 3; ++c) {
-      const size_t at = c * pixels + static_cast<size_t>(p);
-      out.radiance[at] = S[static_cast<Eigen::Index>(c)];
-      out.usable[at] = usable[static_cast<Eigen::Index>(c)] > 0;
+      radiance[c][static_cast<size_t>(p)] = S[static_cast<Eigen::Index>(c)];
+      can_be_used[c][static_cast<size_t>(p)] = usable[static_cast<Eigen::Index>(c)] > 0;
     }
   }
+  Observations out = image;
+  for (size_t c = 0; c < 3; ++c) out.set_channel(0, static_cast<int>(c), radiance[c].data(), can_be_used[c].data());
   return out;
 }
 

@@ -19,12 +19,6 @@ constexpr double kEdgeShiftPx = 0.6;     // matching windows move depth edges by
 constexpr double kGrazingCosine = 0.17;  // below, the pattern is too stretched to be matched (80 degrees)
 constexpr double kJump = 0.02;           // relative step of depth that counts as an edge
 
-/// What does not change between frames: the disparity seen, 0 where there is no reading.
-struct StaticView {
-  cv::Mat1f disparity;
-  double focal_times_baseline = 0;  ///< disparity = this / z
-};
-
 bool reads(const DepthSensorOptions& sensor, const RayTracer& tracer, const SurfaceHit& hit, float ragged) {
   if (!sensor.holes) return true;
   const double cosine = -static_cast<double>(hit.normal.dot(hit.position.normalized()));
@@ -53,66 +47,6 @@ void drop_edges(cv::Mat1f& disparity, const cv::Mat1f& ragged) {
   }
 }
 
-StaticView look(const SimulateOptions& options, const Camera& camera, const RayTracer& tracer) {
-  const DepthSensorOptions& sensor = options.depth;
-  const double unit = camera.width / kReferenceWidth;
-  StaticView view{cv::Mat1f(camera.size(), 0.0f), camera.fx / unit * sensor.baseline_m};
-  const cv::Mat1f ragged = correlated_noise(camera.size(), 1.2 * unit, options.seed, kRagged);
-  const double shift = sensor.noise_mm > 0 ? kEdgeShiftPx * unit : 0;
-  const cv::Mat1f shift_x = correlated_noise(camera.size(), 1.5 * unit, options.seed, kShiftX);
-  const cv::Mat1f shift_y = correlated_noise(camera.size(), 1.5 * unit, options.seed, kShiftY);
-  cv::parallel_for_({0, camera.height}, [&](const cv::Range& rows) {
-    for (int v = rows.start; v < rows.end; ++v) {
-      for (int u = 0; u < camera.width; ++u) {
-        const auto ray = pixel_ray(camera, u + shift * static_cast<double>(shift_x(v, u)),
-                                   v + shift * static_cast<double>(shift_y(v, u)));
-        const auto hit = tracer.trace(Eigen::Vector3f::Zero(), ray);
-        if (!hit || !reads(sensor, tracer, *hit, ragged(v, u))) continue;
-        view.disparity(v, u) =
-            static_cast<float>(view.focal_times_baseline / static_cast<double>(hit->position.z()));
-      }
-    }
-  });
-  if (sensor.holes) drop_edges(view.disparity, ragged);
-  return view;
-}
-
-std::uint16_t raw_depth(const DepthSensorOptions& sensor, double focal_times_baseline, double disparity) {
-  const double step = sensor.disparity_step_px;
-  const double read = step > 0 ? step * std::round(disparity / step) : disparity;
-  if (read <= 0) return 0;
-  const double raw = std::round(focal_times_baseline / read / sensor.unit_m);
-  return raw <= 65535 ? static_cast<std::uint16_t>(raw) : std::uint16_t{0};
-}
-
-cv::Mat1w sense_frame(const SimulateOptions& options, const StaticView& view, const cv::Mat1f& fixed,
-                      int frame) {
-  const DepthSensorOptions& sensor = options.depth;
-  const double unit = view.disparity.cols / kReferenceWidth;
-  const auto index = static_cast<std::uint64_t>(frame);
-  const cv::Mat1f drift =
-      correlated_noise(fixed.size(), sensor.correlation_px * unit, options.seed, kDrift + index);
-  const CounterRandom white(options.seed, kWhite + index);
-  // Millimetres at 1 m -> pixels of disparity: dd = f b / z^2 dz at z = 1.
-  const double px_per_mm = 1e-3 * view.focal_times_baseline;
-  const double drift_share = sensor.correlated_drift;
-  const double fixed_share = std::sqrt(1 - drift_share * drift_share);
-  cv::Mat1w raw(fixed.size(), std::uint16_t{0});
-  for (int v = 0; v < raw.rows; ++v) {
-    for (int u = 0; u < raw.cols; ++u) {
-      if (view.disparity(v, u) <= 0) continue;
-      const auto pixel = static_cast<std::uint64_t>(v) * static_cast<std::uint64_t>(raw.cols) +
-                         static_cast<std::uint64_t>(u);
-      const double correlated =
-          fixed_share * static_cast<double>(fixed(v, u)) + drift_share * static_cast<double>(drift(v, u));
-      const double error_mm = sensor.noise_mm * correlated + sensor.white_noise_mm * white.normal(pixel);
-      raw(v, u) = raw_depth(sensor, view.focal_times_baseline,
-                            static_cast<double>(view.disparity(v, u)) - px_per_mm * error_mm);
-    }
-  }
-  return raw;
-}
-
 }  // namespace
 
 Camera structured_light_camera(cv::Size size) {
@@ -136,17 +70,73 @@ cv::Mat1f correlated_noise(cv::Size size, double sigma_px, std::uint64_t seed, s
   return cropped;
 }
 
+DepthSensor::DepthSensor(const SimulateOptions& options, const Camera& camera, const RayTracer& tracer)
+    : options_(options.depth),
+      seed_(options.seed),
+      unit_px_(camera.width / kReferenceWidth),
+      view_(look(camera, tracer)),
+      fixed_noise_(correlated_noise(camera.size(), options_.correlation_px * unit_px_, seed_, kFixed)) {}
+
+DepthSensor::View DepthSensor::look(const Camera& camera, const RayTracer& tracer) const {
+  View view{cv::Mat1f(camera.size(), 0.0f), camera.fx / unit_px_ * options_.baseline_m};
+  const cv::Mat1f ragged = correlated_noise(camera.size(), 1.2 * unit_px_, seed_, kRagged);
+  const double shift = options_.noise_mm > 0 ? kEdgeShiftPx * unit_px_ : 0;
+  const cv::Mat1f shift_x = correlated_noise(camera.size(), 1.5 * unit_px_, seed_, kShiftX);
+  const cv::Mat1f shift_y = correlated_noise(camera.size(), 1.5 * unit_px_, seed_, kShiftY);
+  cv::parallel_for_({0, camera.height}, [&](const cv::Range& rows) {
+    for (int v = rows.start; v < rows.end; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        const auto ray = pixel_ray(camera, u + shift * static_cast<double>(shift_x(v, u)),
+                                   v + shift * static_cast<double>(shift_y(v, u)));
+        const auto hit = tracer.trace(Eigen::Vector3f::Zero(), ray);
+        if (!hit || !reads(options_, tracer, *hit, ragged(v, u))) continue;
+        view.disparity(v, u) =
+            static_cast<float>(view.focal_times_baseline / static_cast<double>(hit->position.z()));
+      }
+    }
+  });
+  if (options_.holes) drop_edges(view.disparity, ragged);
+  return view;
+}
+
+std::uint16_t DepthSensor::raw_depth(double disparity) const {
+  const double step = options_.disparity_step_px;
+  const double read = step > 0 ? step * std::round(disparity / step) : disparity;
+  if (read <= 0) return 0;
+  const double raw = std::round(view_.focal_times_baseline / read / options_.unit_m);
+  return raw <= 65535 ? static_cast<std::uint16_t>(raw) : std::uint16_t{0};
+}
+
+cv::Mat1w DepthSensor::frame(int number) const {
+  const auto index = static_cast<std::uint64_t>(number);
+  const cv::Mat1f drift =
+      correlated_noise(fixed_noise_.size(), options_.correlation_px * unit_px_, seed_, kDrift + index);
+  const CounterRandom white(seed_, kWhite + index);
+  // Millimetres at 1 m -> pixels of disparity: dd = f b / z^2 dz at z = 1.
+  const double px_per_mm = 1e-3 * view_.focal_times_baseline;
+  const double drift_share = options_.correlated_drift;
+  const double fixed_share = std::sqrt(1 - drift_share * drift_share);
+  cv::Mat1w raw(fixed_noise_.size(), std::uint16_t{0});
+  for (int v = 0; v < raw.rows; ++v) {
+    for (int u = 0; u < raw.cols; ++u) {
+      if (view_.disparity(v, u) <= 0) continue;
+      const auto pixel = static_cast<std::uint64_t>(v) * static_cast<std::uint64_t>(raw.cols) +
+                         static_cast<std::uint64_t>(u);
+      const double correlated = fixed_share * static_cast<double>(fixed_noise_(v, u)) +
+                                drift_share * static_cast<double>(drift(v, u));
+      const double error_mm = options_.noise_mm * correlated + options_.white_noise_mm * white.normal(pixel);
+      raw(v, u) = raw_depth(static_cast<double>(view_.disparity(v, u)) - px_per_mm * error_mm);
+    }
+  }
+  return raw;
+}
+
 std::vector<cv::Mat1w> sense_depth(const SimulateOptions& options, const Camera& camera,
                                    const RayTracer& tracer, int count) {
-  const StaticView view = look(options, camera, tracer);
-  const double unit = camera.width / kReferenceWidth;
-  const cv::Mat1f fixed =
-      correlated_noise(camera.size(), options.depth.correlation_px * unit, options.seed, kFixed);
+  const DepthSensor sensor(options, camera, tracer);
   std::vector<cv::Mat1w> frames(static_cast<std::size_t>(count));
   cv::parallel_for_({0, count}, [&](const cv::Range& range) {
-    for (int k = range.start; k < range.end; ++k) {
-      frames[static_cast<std::size_t>(k)] = sense_frame(options, view, fixed, k);
-    }
+    for (int k = range.start; k < range.end; ++k) frames[static_cast<std::size_t>(k)] = sensor.frame(k);
   });
   return frames;
 }

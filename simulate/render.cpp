@@ -21,7 +21,8 @@ void sample_pixel(const ShadingContext& context, const Camera& camera, int u, in
   samples.clear();
   const int n = context.options.image.samples;
   for (int k = 0; k < n * n; ++k) {
-    const double du = (k % n + 0.5) / n - 0.5, dv = (k / n + 0.5) / n - 0.5;
+    const int column = k % n, row = k / n;
+    const double du = (column + 0.5) / n - 0.5, dv = (row + 0.5) / n - 0.5;
     const Eigen::Vector3f ray = pixel_ray(camera, u + du, v + dv);
     if (const auto hit = context.tracer.trace(Eigen::Vector3f::Zero(), ray)) {
       const auto& scene = context.options.scene;
@@ -57,21 +58,46 @@ void render_row(const ShadingContext& context, const Camera& camera, const std::
   }
 }
 
+/// Samples of neighbouring pixels of a row, with the pixels they belong to.
+struct Tile {
+  std::vector<SurfaceSample> samples;
+  std::vector<int> columns;  ///< runs parallel to the samples
+};
+
+constexpr int kTilePixels =
+    64;  // their shadow rays go together, and their samples stay in the processor's cache
+
+void sample_tile(const ShadingContext& context, const Camera& camera, int first, int v, Tile& tile,
+                 RadianceImages& out) {
+  thread_local std::vector<SurfaceSample> samples;
+  tile.samples.clear();
+  tile.columns.clear();
+  for (int u = first; u < std::min(first + kTilePixels, camera.width); ++u) {
+    sample_pixel(context, camera, u, v, samples);
+    if (samples.empty()) continue;
+    out.albedo(v, u) = mean_albedo(samples);
+    tile.samples.insert(tile.samples.end(), samples.begin(), samples.end());
+    tile.columns.insert(tile.columns.end(), samples.size(), u);
+  }
+}
+
 void render_radiance_row(const ShadingContext& context, const Camera& camera,
                          const std::vector<LampTruth>& lamps, int v, RadianceImages& out) {
   const float share =
       1.0f / static_cast<float>(context.options.image.samples * context.options.image.samples);
-  const auto store = [share](const Eigen::Vector3f& sum, cv::Vec3f& pixel) {
-    pixel = {share * sum.x(), share * sum.y(), share * sum.z()};
+  const auto add = [share](const Eigen::Vector3f& radiance, cv::Vec3f& pixel) {
+    for (int c = 0; c < 3; ++c) pixel[c] += share * radiance[c];
   };
-  std::vector<SurfaceSample> samples;
-  for (int u = 0; u < camera.width; ++u) {
-    sample_pixel(context, camera, u, v, samples);
-    if (samples.empty()) continue;
-    out.albedo(v, u) = mean_albedo(samples);
-    store(ambient_radiance(context, samples), out.ambient(v, u));
+  thread_local Tile tile;
+  thread_local std::vector<Eigen::Vector3f> radiance;
+  for (int first = 0; first < camera.width; first += kTilePixels) {
+    sample_tile(context, camera, first, v, tile, out);
+    if (tile.samples.empty()) continue;
+    for (std::size_t i = 0; i < tile.samples.size(); ++i)
+      add(ambient_radiance(context, tile.samples[i]), out.ambient(v, tile.columns[i]));
     for (std::size_t k = 0; k < lamps.size(); ++k) {
-      store(lamp_radiance(context, samples, lamps[k]), out.lamps[k](v, u));
+      lamp_radiance(context, tile.samples, lamps[k], radiance);
+      for (std::size_t i = 0; i < radiance.size(); ++i) add(radiance[i], out.lamps[k](v, tile.columns[i]));
     }
   }
 }

@@ -14,10 +14,12 @@ Eigen::Vector3f ambient(const SimulateOptions& options, const Eigen::Vector3f& n
   return level * Eigen::Vector3f(1.1f, 1.0f, 0.85f);
 }
 
-/// Blinn-Phong lobe, 1 at its peak.
+/// Blinn-Phong lobe x^s, 1 at its peak; nothing where it is under e^-18, far below what 16 bits tell apart.
 float lobe(const SurfaceSample& sample, const Eigen::Vector3f& to_lamp, double shininess) {
   const Eigen::Vector3f half = (to_lamp + sample.to_eye).normalized();
-  return std::pow(std::max(0.0f, sample.hit.normal.dot(half)), static_cast<float>(shininess));
+  const float x = sample.hit.normal.dot(half), s = static_cast<float>(shininess);
+  if (s * (x - 1) < -18) return 0;  // ln x <= x - 1, so that x^s < e^-18
+  return std::pow(std::max(0.0f, x), s);
 }
 
 /// Light reflected by a point that the lamp reaches unhindered.
@@ -35,45 +37,42 @@ Eigen::Vector3f reflected(const ImageOptions& image, const SurfaceSample& sample
 
 }  // namespace
 
-Eigen::Vector3f ambient_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples) {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const SurfaceSample& sample : samples) {
-    sum += sample.albedo.cwiseProduct(ambient(context.options, sample.hit.normal));
-  }
-  return sum;
+Eigen::Vector3f ambient_radiance(const ShadingContext& context, const SurfaceSample& sample) {
+  return sample.albedo.cwiseProduct(ambient(context.options, sample.hit.normal));
 }
 
-/// The lamp's cast shadow takes samples out.
-Eigen::Vector3f lamp_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
-                              const LampTruth& lamp) {
+void lamp_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
+                   const LampTruth& lamp, std::vector<Eigen::Vector3f>& radiance) {
   thread_local std::vector<ShadowRay> rays;
-  thread_local std::vector<Eigen::Vector3f> lit;  // runs parallel to `rays`
+  thread_local std::vector<std::size_t> sample_of_ray;
   thread_local std::vector<bool> occluded;
   rays.clear();
-  lit.clear();
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  sample_of_ray.clear();
+  radiance.clear();
   for (const SurfaceSample& sample : samples) {
     const Incident light = incident_light(lamp, context.object_center, sample.hit.position);
-    const Eigen::Vector3f value = reflected(context.options.image, sample, light);
     if (context.options.image.cast_shadows && sample.hit.normal.dot(light.direction) > 0) {
       rays.push_back({&sample.hit, light.direction, light.distance});
-      lit.push_back(value);
-    } else {
-      sum += value;
+      sample_of_ray.push_back(radiance.size());
     }
+    radiance.push_back(reflected(context.options.image, sample, light));
   }
-  if (rays.empty()) return sum;
+  if (rays.empty()) return;
   context.tracer.find_occluded(rays, occluded);
-  for (std::size_t k = 0; k < lit.size(); ++k) {
-    if (!occluded[k]) sum += lit[k];
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    if (occluded[k]) radiance[sample_of_ray[k]].setZero();
   }
-  return sum;
 }
 
 Eigen::Vector3f total_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
                                const std::vector<LampTruth>& lamps) {
-  Eigen::Vector3f sum = ambient_radiance(context, samples);
-  for (const LampTruth& lamp : lamps) sum += lamp_radiance(context, samples, lamp);
+  thread_local std::vector<Eigen::Vector3f> radiance;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const SurfaceSample& sample : samples) sum += ambient_radiance(context, sample);
+  for (const LampTruth& lamp : lamps) {
+    lamp_radiance(context, samples, lamp, radiance);
+    for (const Eigen::Vector3f& value : radiance) sum += value;
+  }
   return sum;
 }
 

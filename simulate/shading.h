@@ -25,11 +25,15 @@ struct ShadingContext {
   Eigen::Vector3f object_center;
 };
 
-/// Sums over the samples of the linear radiance towards the eye; 1 = a facing white surface under a lamp of strength 1.
-/// Under the room's ambient light alone, under one lamp alone, under both.
-Eigen::Vector3f ambient_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples);
-Eigen::Vector3f lamp_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
-                              const LampTruth& lamp);
+/// Linear radiance of a sample towards the eye under the room's ambient light alone; 1 = a facing white surface under a
+/// lamp of strength 1.
+Eigen::Vector3f ambient_radiance(const ShadingContext& context, const SurfaceSample& sample);
+
+/// The same of each sample under one lamp alone, its cast shadows included. Neighbouring samples together are fastest.
+void lamp_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
+                   const LampTruth& lamp, std::vector<Eigen::Vector3f>& radiance);
+
+/// Sum over the samples of the radiance under the ambient light and all lamps.
 Eigen::Vector3f total_radiance(const ShadingContext& context, const std::vector<SurfaceSample>& samples,
                                const std::vector<LampTruth>& lamps);
 

@@ -11,6 +11,7 @@
 #include "stack/importers/diligent.h"
 #include "stack/importers/photometric_sr.h"
 #include "stack/manifest.h"
+#include "stack/parallel.h"
 #include "stack/truth_io.h"
 
 namespace rakelight {
@@ -53,12 +54,13 @@ LightStack read_files(const fs::path& folder) {
   check_memory(manifest, file);
   LightStack& stack = manifest.stack;
   stack.origin = folder.string();
-  for (std::size_t i = 0; i < stack.frames.size(); ++i) {
+  in_parallel(static_cast<int>(stack.frames.size()), [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
     const auto& [color, depth] = manifest.files[i];
     Frame& frame = stack.frames[i];
     if (!color.empty()) frame.color = read_color_png(path_inside(folder, color), stack.color_camera.size());
     if (!depth.empty()) frame.depth = read_depth_png(path_inside(folder, depth), stack.depth_camera.size());
-  }
+  });
   if (present(folder / kMask)) {
     stack.mask =
         read_mask_png(path_inside(folder, kMask), {stack.color_camera.size(), stack.depth_camera.size()});
@@ -143,10 +145,11 @@ void write_stack(const LightStack& stack, const fs::path& folder, const std::opt
   const std::string manifest = manifest_text(stack, files);
   AtomicFolder out(folder, stack_kind());
   for (const char* sub : {"color", "depth"}) make_folder(out.path() / sub);
-  for (std::size_t i = 0; i < files.size(); ++i) {
+  in_parallel(static_cast<int>(files.size()), [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
     if (!files[i].color.empty()) write_png(out.path() / files[i].color, stack.frames[i].color);
     if (!files[i].depth.empty()) write_png(out.path() / files[i].depth, stack.frames[i].depth);
-  }
+  });
   if (!stack.mask.empty()) write_png(out.path() / kMask, stack.mask);
   if (truth) {
     make_folder(out.path() / "truth");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/output/result_io.h"
 
+#include <algorithm>
+#include <functional>
 #include <future>
 #include <limits>
 #include <optional>
@@ -19,6 +21,7 @@
 #include "stack/checked_file.h"
 #include "stack/float_tiff.h"
 #include "stack/image_file.h"
+#include "stack/parallel.h"
 #include "stack/strict_json.h"
 
 namespace rakelight {
@@ -106,20 +109,45 @@ void read_manifest(const fs::path& file, StoredResult& result) {
 
 }  // namespace
 
-void write_result(const RefineResult& result, const fs::path& folder, const LightStack* stack) {
+std::string to_string(Output output) {
+  switch (output) {
+    case Output::depth: return "depth";
+    case Output::normals: return "normals";
+    case Output::albedo: return "albedo";
+    case Output::uncertainty: return "uncertainty";
+    case Output::mesh: return "mesh";
+    case Output::pictures: return "pictures";
+    case Output::report: return "report";
+  }
+  return "unknown";
+}
+
+void write_result(const RefineResult& result, const fs::path& folder, const LightStack* stack,
+                  const std::vector<Output>& outputs) {
   AtomicFolder out(folder, result_kind());
-  write_tiff(out.path() / "depth.tiff", result.depth);
-  write_png(out.path() / "depth.png", depth_picture(result.depth, depth_unit(result.depth)));
-  write_tiff(out.path() / "initial_depth.tiff", result.initial_depth);
-  write_tiff(out.path() / "normals.tiff", result.normals);
-  write_png(out.path() / "normals.png", normals_picture(result.normals));
-  if (!result.uncertainty.empty()) write_tiff(out.path() / "uncertainty.tiff", result.uncertainty);
-  write_tiff(out.path() / "albedo.tiff", result.albedo);
-  write_png(out.path() / "albedo.png", albedo_picture(result.albedo));
-  write_file(out.path() / "mesh.ply", ply_bytes(mesh_of(result)));
-  write_file(out.path() / "mesh.glb", glb_bytes(mesh_of(result, stride_for(result.depth, kMaxGlbVertices))));
-  write_png(out.path() / "before_after.png", before_after_picture(result));
-  write_file(out.path() / "report.html", report_html(result, stack));
+  std::vector<std::function<void()>> jobs;  // the longest first, so that none is left alone at the end
+  const auto add = [&](Output output, const char* name, auto make_and_write) {
+    if (std::find(outputs.begin(), outputs.end(), output) == outputs.end()) return;
+    jobs.push_back([&out, name, make_and_write] { make_and_write(out.path() / name); });
+  };
+  add(Output::report, "report.html", [&](const fs::path& file) { write_file(file, report_html(result, stack)); });
+  add(Output::mesh, "mesh.ply", [&](const fs::path& file) { write_file(file, ply_bytes(mesh_of(result))); });
+  add(Output::mesh, "mesh.glb", [&](const fs::path& file) {
+    write_file(file, glb_bytes(mesh_of(result, stride_for(result.depth, kMaxGlbVertices))));
+  });
+  if (!result.uncertainty.empty())
+    add(Output::uncertainty, "uncertainty.tiff", [&](const fs::path& file) { write_tiff(file, result.uncertainty); });
+  add(Output::normals, "normals.tiff", [&](const fs::path& file) { write_tiff(file, result.normals); });
+  add(Output::albedo, "albedo.tiff", [&](const fs::path& file) { write_tiff(file, result.albedo); });
+  add(Output::depth, "depth.tiff", [&](const fs::path& file) { write_tiff(file, result.depth); });
+  add(Output::depth, "initial_depth.tiff", [&](const fs::path& file) { write_tiff(file, result.initial_depth); });
+  add(Output::pictures, "before_after.png", [&](const fs::path& file) { write_png(file, before_after_picture(result)); });
+  add(Output::depth, "depth.png", [&](const fs::path& file) {
+    write_png(file, depth_picture(result.depth, depth_unit(result.depth)));
+  });
+  add(Output::normals, "normals.png", [&](const fs::path& file) { write_png(file, normals_picture(result.normals)); });
+  add(Output::albedo, "albedo.png", [&](const fs::path& file) { write_png(file, albedo_picture(result.albedo)); });
+  in_parallel(jobs);
   write_file(out.path() / kManifest, result_json(result, place_of(stack, folder)));
   out.commit();
 }

@@ -24,10 +24,10 @@ class SymmetricPattern {
       couple(p, number_at(grid, at.x + 1, at.y + 1));
       couple(p, number_at(grid, at.x - 1, at.y + 1));
     }
-    for (const auto& pixels : cells.pixels_of) {
-      for (size_t i = 0; i < pixels.size(); ++i)
-        for (size_t j = 0; j < i; ++j) couple(pixels[i], pixels[j]);
-    }
+    for (int cell = 0; cell < cells.size(); ++cell)
+      for (const int a : cells.of(cell))
+        for (const int b : cells.of(cell))
+          if (b < a) couple(a, b);
     lower_.setFromTriplets(entries.begin(), entries.end());
     lower_.makeCompressed();
   }
@@ -57,7 +57,7 @@ class CholeskyDepthSolver final : public DepthSolver {
   CholeskyDepthSolver(const PixelGrid& grid, const DepthCells& cells)
       : grid_(grid), cells_(cells), matrix_(grid, cells) {}
 
-  bool solve(const DepthSystem& system, Eigen::VectorXd& x) override {
+  bool solve(DepthSystem system, Eigen::VectorXd& x) override {
     assemble(system);
     const bool solved =
         system.curvature.empty()
@@ -79,23 +79,23 @@ class CholeskyDepthSolver final : public DepthSolver {
     for (int p = 0; p < grid_.size(); ++p) {
       const size_t i = static_cast<size_t>(p);
       const cv::Point at = grid_.pixels[i];
-      matrix_.add(p, p, system.diagonal[i]);
+      matrix_.add(p, p, static_cast<double>(system.diagonal[i]));
       add_if_inside(p, grid_.neighbor[kRight][i], system.right[i]);
       add_if_inside(p, grid_.neighbor[kDown][i], system.down[i]);
       add_if_inside(p, SymmetricPattern::number_at(grid_, at.x + 1, at.y + 1), system.down_right[i]);
       add_if_inside(p, SymmetricPattern::number_at(grid_, at.x - 1, at.y + 1), system.down_left[i]);
     }
-    for (size_t cell = 0; cell < cells_.pixels_of.size(); ++cell) {
-      const auto& pixels = cells_.pixels_of[cell];
-      const double count = static_cast<double>(pixels.size());
-      const double weight = system.cell_weight[static_cast<Eigen::Index>(cell)] / (count * count);
-      for (size_t i = 0; i < pixels.size(); ++i)
-        for (size_t j = 0; j <= i; ++j) matrix_.add(pixels[i], pixels[j], weight);
+    for (int cell = 0; cell < cells_.size(); ++cell) {
+      const double count = static_cast<double>(cells_.of(cell).size());
+      const double weight = system.cell_weight[cell] / (count * count);
+      for (const int a : cells_.of(cell))
+        for (const int b : cells_.of(cell))
+          if (b <= a) matrix_.add(a, b, weight);
     }
   }
 
-  void add_if_inside(int p, int q, double value) {
-    if (q >= 0) matrix_.add(p, q, value);
+  void add_if_inside(int p, int q, float value) {
+    if (q >= 0) matrix_.add(p, q, static_cast<double>(value));
   }
 
   const PixelGrid& grid_;

@@ -18,14 +18,29 @@ namespace rakelight {
 
 /// Which refined pixels the reading of a depth pixel is the mean of.
 struct DepthCells {
-  std::vector<int> cell_of;                 ///< [pixel]: number of its cell
-  std::vector<std::vector<int>> pixels_of;  ///< [cell]: its pixels, at most s x s
+  /// Pixels of one cell, at most s x s.
+  struct Pixels {
+    const int *first, *last;
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+    size_t size() const { return static_cast<size_t>(last - first); }
+  };
+
+  std::vector<int> cell_of;   ///< [pixel]: number of its cell
+  std::vector<int> pixels;    ///< cell by cell
+  std::vector<int> first{0};  ///< [cell]: where its pixels begin; one more at the end
+
+  int size() const { return static_cast<int>(first.size()) - 1; }
+  Pixels of(int cell) const {
+    const auto i = static_cast<size_t>(cell);
+    return {pixels.data() + first[i], pixels.data() + first[i + 1]};
+  }
 };
 
 /// Symmetric system (stencil + K' diag(cell_weight) K + C) x = rhs, C of second differences (refine/solver/curvature.h).
 struct DepthSystem {
-  std::vector<double> diagonal, right, down, down_right,
-      down_left;                ///< entry (p, neighbour of p in that direction)
+  std::vector<float> diagonal, right, down, down_right,
+      down_left;                ///< entry (p, neighbour of p in that direction), 0 without one
   Eigen::VectorXd cell_weight;  ///< Lambda, a number a cell
   CurvatureWeights curvature;
   Eigen::VectorXd rhs;
@@ -44,7 +59,7 @@ class DepthSolver {
   virtual ~DepthSolver() = default;
 
   /// Solves the system. @return false when it is not positive definite; x is then untouched.
-  virtual bool solve(const DepthSystem& system, Eigen::VectorXd& x) = 0;
+  virtual bool solve(DepthSystem system, Eigen::VectorXd& x) = 0;
 
   /// Solves the last system solved for another right-hand side. @return as solve.
   virtual bool solve_again(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) = 0;

@@ -3,8 +3,6 @@
 #include "refine/solver/multigrid.h"
 
 #include <algorithm>
-#include <array>
-#include <opencv2/core/utility.hpp>
 
 namespace rakelight {
 namespace {
@@ -13,237 +11,157 @@ using Eigen::Index;
 using Eigen::VectorXf;
 
 constexpr Index kCoarsestCells = 256;
-constexpr Index kWorthThreads = 16384;  // pixels; smaller levels run faster in one thread
 
-/// Calls body(y) for first, first + step, ... below count.
-template <class Body>
-void for_rows(const StencilGrid& A, int first, int step, const Body& body) {
-  const int rows = (A.height - first + step - 1) / step;
-  if (A.size() < kWorthThreads) {
-    for (int k = 0; k < rows; ++k) body(first + k * step);
-    return;
-  }
-  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
-    for (int k = range.start; k < range.end; ++k) body(first + k * step);
-  });
-}
+enum Color { even = 0, odd = 1 };
 
-/// What the rows above and below contribute to A x at i.
-float from_other_rows(const StencilGrid& A, const VectorXf& x, Index i) {
-  const Index s = A.stride();
-  return A.down[i] * x[i + s] + A.down[i - s] * x[i - s] + A.down_right[i] * x[i + s + 1] +
-         A.down_right[i - s - 1] * x[i - s - 1] + A.down_left[i] * x[i + s - 1] +
-         A.down_left[i - s + 1] * x[i - s + 1];
-}
+/// Scratch of one row of a grid with borders on both sides, zeros.
+struct RowBuffer {
+  std::vector<float> values;
 
-void multiply_row(const StencilGrid& A, const VectorXf& x, int y, VectorXf& out) {
-  for (Index i = A.at(0, y); i < A.at(A.width, y); ++i)
-    out[i] =
-        A.diagonal[i] * x[i] + A.right[i] * x[i + 1] + A.right[i - 1] * x[i - 1] + from_other_rows(A, x, i);
-}
+  explicit RowBuffer(const StencilGrid& grid) : values(static_cast<size_t>(grid.stride()) + 6 * kernels::kRowAlign) {}
+  float* begin() { return values.data() + kernels::kRowAlign; }
+};
 
-/// A full stencil entry: from pixel i towards (dx, dy).
-float entry(const StencilGrid& A, Index i, int dx, int dy) {
-  const Index j = i + dy * A.stride() + dx;
-  if (dy == 0) return dx == 0 ? A.diagonal[i] : dx > 0 ? A.right[i] : A.right[j];
-  const Index upper = dy > 0 ? i : j;
-  if (dx == 0) return A.down[upper];
-  return (dx > 0) == (dy > 0) ? A.down_right[upper] : A.down_left[upper];
-}
-
-float transfer_weight(int dx, int dy) { return (dx == 0 ? 1.0f : 0.5f) * (dy == 0 ? 1.0f : 0.5f); }
-
-/// Row X of A P around fine pixel (2X, 2Y), summed with the weights of restriction: values at fine offsets -2..2.
-using Patch = std::array<std::array<float, 5>, 5>;
-
-Patch restricted_rows(const StencilGrid& fine, int x, int y) {
-  Patch patch{};
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const int u = x + dx, v = y + dy;
-      if (u < 0 || v < 0 || u >= fine.width || v >= fine.height) continue;
-      const Index i = fine.at(u, v);
-      if (fine.diagonal[i] == 0.0f) continue;
-      const float w = transfer_weight(dx, dy);
-      for (int ey = -1; ey <= 1; ++ey)
-        for (int ex = -1; ex <= 1; ++ex)
-          patch[static_cast<size_t>(2 + dy + ey)][static_cast<size_t>(2 + dx + ex)] +=
-              w * entry(fine, i, ex, ey);
-    }
-  }
-  return patch;
-}
-
-/// Entry of R A P from the patch's coarse pixel to the one at coarse offset (X, Y).
-float galerkin_entry(const Patch& patch, int X, int Y) {
-  float sum = 0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const int u = 2 + 2 * X + dx, v = 2 + 2 * Y + dy;
-      if (u < 0 || v < 0 || u > 4 || v > 4) continue;
-      sum += transfer_weight(dx, dy) * patch[static_cast<size_t>(v)][static_cast<size_t>(u)];
-    }
-  }
-  return sum;
+/// The row, or zeros where the grid has none.
+kernels::StencilRow row_or_zeros(const StencilGrid& grid, int y, RowBuffer& zeros) {
+  if (y >= 0 && y < grid.height) return grid.row(y);
+  return {zeros.begin(), zeros.begin(), zeros.begin(), zeros.begin(), zeros.begin(), 0, grid.width};
 }
 
 StencilGrid coarser(const StencilGrid& fine) {
   StencilGrid coarse(fine.width / 2 + 1, fine.height / 2 + 1);
   for_rows(coarse, 0, 1, [&](int y) {
-    for (int x = 0; x < coarse.width; ++x) {
-      const Patch patch = restricted_rows(fine, 2 * x, 2 * y);
-      const Index i = coarse.at(x, y);
-      coarse.diagonal[i] = galerkin_entry(patch, 0, 0);
-      coarse.right[i] = galerkin_entry(patch, 1, 0);
-      coarse.down[i] = galerkin_entry(patch, 0, 1);
-      coarse.down_right[i] = galerkin_entry(patch, 1, 1);
-      coarse.down_left[i] = galerkin_entry(patch, -1, 1);
-    }
+    RowBuffer zeros(fine), same(fine), right(fine), below(fine), below_right(fine), below_left(fine);
+    const kernels::BandRow itself{nullptr, same.begin(), right.begin()};
+    const kernels::BandRow to_next{below_left.begin(), below.begin(), below_right.begin()};
+    kernels::collapse_rows(row_or_zeros(fine, 2 * y - 1, zeros), row_or_zeros(fine, 2 * y, zeros),
+                           row_or_zeros(fine, 2 * y + 1, zeros), itself, to_next);
+    const Index i = coarse.at(0, y);
+    kernels::collapse_along(itself, to_next,
+                            {coarse.diagonal.data() + i, coarse.right.data() + i, coarse.down.data() + i,
+                             coarse.down_right.data() + i, coarse.down_left.data() + i, coarse.width});
   });
   return coarse;
 }
 
-/// Coarse right-hand side: P' times the fine residual.
-void restrict_to(const StencilGrid& fine, const VectorXf& residual, const StencilGrid& coarse, VectorXf& r) {
-  for_rows(coarse, 0, 1, [&](int y) {
-    for (int x = 0; x < coarse.width; ++x) {
-      float sum = 0;
-      for (int dy = -1; dy <= 1; ++dy) {
-        const int v = 2 * y + dy;
-        if (v < 0 || v >= fine.height) continue;
-        for (int dx = -1; dx <= 1; ++dx) {
-          const int u = 2 * x + dx;
-          if (u >= 0 && u < fine.width) sum += transfer_weight(dx, dy) * residual[fine.at(u, v)];
-        }
-      }
-      r[coarse.at(x, y)] = coarse.diagonal[coarse.at(x, y)] == 0.0f ? 0.0f : sum;
+/// Gauss-Seidel over the rows of one colour. @param first_visit x counts as 0
+void relax(const StencilGrid& A, const LineSolver& lines, Color color, const VectorXf& r, bool first_visit, VectorXf& x) {
+  for_rows(A, color, 2 * LineSolver::kRowsAtOnce, [&](int first) {
+    for (int k = 0, y = first; k < LineSolver::kRowsAtOnce && y < A.height; ++k, y += 2) {
+      const Index i = A.at(0, y);
+      if (first_visit)
+        x.segment(i, A.width) = r.segment(i, A.width);
+      else
+        kernels::subtract_other_rows(A.row(y), x.data() + i, r.data() + i, x.data() + i);
     }
+    lines.solve(A, first, 2, x);
   });
 }
 
-/// x += P times the coarse correction, inside the mask.
-void prolong_add(const StencilGrid& coarse, const VectorXf& correction, const StencilGrid& fine,
-                 VectorXf& x) {
-  for_rows(fine, 0, 1, [&](int v) {
-    for (int u = 0; u < fine.width; ++u) {
-      const Index i = fine.at(u, v), c = coarse.at(u / 2, v / 2);
-      if (fine.diagonal[i] == 0.0f) continue;
-      const Index dx = u % 2, dy = (v % 2) * coarse.stride();
-      x[i] += 0.25f * (correction[c] + correction[c + dx] + correction[c + dy] + correction[c + dx + dy]);
+/// Coarse right-hand side, after even and odd rows were relaxed in that order: then the odd rows have no residual. After one
+/// sweep from x = 0 the even ones have what the odd ones brought in.
+void restrict_residual(const StencilGrid& A, const VectorXf& r, bool one_sweep, const VectorXf& x,
+                       const StencilGrid& coarse, VectorXf& coarse_r) {
+  for_rows(coarse, 0, 1, [&](int y) {
+    RowBuffer residual(A);
+    if (2 * y < A.height) {
+      const Index fine = A.at(0, 2 * y);
+      if (one_sweep) {
+        kernels::subtract_other_rows(A.row(2 * y), x.data() + fine, nullptr, residual.begin());
+      } else {
+        kernels::multiply_row(A.row(2 * y), x.data() + fine, residual.begin());
+        for (int u = 0; u < A.width; ++u) residual.begin()[u] = r[fine + u] - residual.begin()[u];
+      }
     }
+    const Index i = coarse.at(0, y);
+    kernels::restrict_row(residual.begin(), coarse.diagonal.data() + i, coarse.width, coarse_r.data() + i);
+  });
+}
+
+/// Adds the coarse correction to the even rows; the odd ones are relaxed next, whatever they hold.
+void correct_even_rows(const StencilGrid& coarse, const VectorXf& correction, const StencilGrid& A, VectorXf& x) {
+  for_rows(A, even, 2, [&](int y) {
+    const Index i = A.at(0, y);
+    kernels::prolong_row(correction.data() + coarse.at(0, y / 2), A.diagonal.data() + i, A.width, x.data() + i);
   });
 }
 
 }  // namespace
 
-StencilGrid::StencilGrid(int width_px, int height_px) : width(width_px), height(height_px) {
-  for (VectorXf* part : {&diagonal, &right, &down, &down_right, &down_left}) *part = VectorXf::Zero(size());
-}
-
-void StencilGrid::multiply(const VectorXf& x, VectorXf& y) const {
-  y.resize(size());
-  y.head(stride()).setZero();
-  y.tail(stride()).setZero();
-  for_rows(*this, 0, 1, [&](int row) {
-    y[at(-1, row)] = y[at(width, row)] = 0;
-    multiply_row(*this, x, row, y);
-  });
-}
-
 bool Multigrid::setup(StencilGrid finest) {
   levels_.clear();
   levels_.emplace_back();
   levels_.back().A = std::move(finest);
-  while (levels_.back().A.size() > kCoarsestCells) {
+  const auto cells = [](const StencilGrid& A) { return Index{A.width} * A.height; };
+  while (cells(levels_.back().A) > kCoarsestCells) {
     StencilGrid next = coarser(levels_.back().A);
     levels_.emplace_back();
     levels_.back().A = std::move(next);
+    levels_.back().x = levels_.back().r = VectorXf::Zero(levels_.back().A.size());
   }
   for (Level& level : levels_) {
-    if (!factorize_rows(level)) return false;
+    if (!level.lines.factorize(level.A)) return false;
   }
   return factorize_coarsest();
-}
-
-bool Multigrid::factorize_rows(Level& level) {
-  const StencilGrid& A = level.A;
-  std::vector<unsigned char> sound(static_cast<size_t>(A.height), 1);
-  level.x = level.r = level.residual = level.inverse_pivot = level.multiplier = VectorXf::Zero(A.size());
-  for_rows(A, 0, 1, [&](int y) {
-    for (Index i = A.at(0, y); i < A.at(A.width, y); ++i) {
-      const float pivot = A.diagonal[i] - A.right[i - 1] * level.multiplier[i - 1];
-      level.inverse_pivot[i] = pivot > 0.0f ? 1.0f / pivot : 0.0f;
-      level.multiplier[i] = A.right[i] * level.inverse_pivot[i];
-      if (A.diagonal[i] != 0.0f && !(pivot > 0.0f)) sound[static_cast<size_t>(y)] = 0;
-    }
-  });
-  return std::all_of(sound.begin(), sound.end(), [](unsigned char each) { return each != 0; });
 }
 
 bool Multigrid::factorize_coarsest() {
   const StencilGrid& A = levels_.back().A;
   coarsest_cells_.clear();
-  for (Index i = 0; i < A.size(); ++i)
-    if (A.diagonal[i] > 0.0f) coarsest_cells_.push_back(i);
+  std::vector<Index> number(static_cast<size_t>(A.size()), -1);
+  for (int y = 0; y < A.height; ++y) {
+    for (Index i = A.at(0, y); i < A.at(A.width, y); ++i) {
+      if (!(A.diagonal[i] > 0.0f)) continue;
+      number[static_cast<size_t>(i)] = static_cast<Index>(coarsest_cells_.size());
+      coarsest_cells_.push_back(i);
+    }
+  }
   const auto count = static_cast<Index>(coarsest_cells_.size());
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(count, count);
-  std::vector<Index> number(static_cast<size_t>(A.size()), -1);
-  for (Index k = 0; k < count; ++k) number[static_cast<size_t>(coarsest_cells_[static_cast<size_t>(k)])] = k;
   for (Index k = 0; k < count; ++k) {
-    const Index i = coarsest_cells_[static_cast<size_t>(k)];
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const Index other = number[static_cast<size_t>(i + dy * A.stride() + dx)];
-        if (other >= 0) dense(k, other) = static_cast<double>(entry(A, i, dx, dy));
-      }
-    }
+    const Index i = coarsest_cells_[static_cast<size_t>(k)], s = A.stride();
+    const auto couple = [&](Index neighbor, float entry) {
+      const Index other = number[static_cast<size_t>(neighbor)];
+      if (other >= 0) dense(k, other) = dense(other, k) = static_cast<double>(entry);
+    };
+    couple(i, A.diagonal[i]);
+    couple(i + 1, A.right[i]);
+    couple(i + s, A.down[i]);
+    couple(i + s + 1, A.down_right[i]);
+    couple(i + s - 1, A.down_left[i]);
   }
   coarsest_.compute(dense);
   return coarsest_.info() == Eigen::Success;
 }
 
 void Multigrid::apply(const VectorXf& r, VectorXf& z) {
-  levels_.front().r = r;
-  cycle(0);
-  z = levels_.front().x;
+  if (z.size() != finest().size()) z = VectorXf::Zero(finest().size());
+  cycle(0, r, z);
 }
 
-void Multigrid::cycle(size_t number) {
-  if (number + 1 == levels_.size()) {
-    solve_coarsest();
-    return;
-  }
-  Level& level = levels_[number];
+void Multigrid::cycle(size_t number, const VectorXf& r, VectorXf& x) {
+  if (number + 1 == levels_.size()) return solve_coarsest(r, x);
+  const Level& level = levels_[number];
   Level& next = levels_[number + 1];
-  const StencilGrid& A = level.A;
-  const auto solve_row = [&](int y) {
-    VectorXf& g = level.residual;  // free until the residual is taken
-    for (Index i = A.at(0, y); i < A.at(A.width, y); ++i) g[i] = level.r[i] - from_other_rows(A, level.x, i);
-    for (Index i = A.at(1, y); i < A.at(A.width, y); ++i) g[i] -= level.multiplier[i - 1] * g[i - 1];
-    for (Index i = A.at(A.width - 1, y); i >= A.at(0, y); --i)
-      level.x[i] = g[i] * level.inverse_pivot[i] - level.multiplier[i] * level.x[i + 1];
-  };
-  level.x.setZero();
-  for_rows(A, 0, 2, solve_row);
-  for_rows(A, 1, 2, solve_row);
-  A.multiply(level.x, level.residual);
-  level.residual = level.r - level.residual;
-  restrict_to(A, level.residual, next.A, next.r);
-  cycle(number + 1);
-  prolong_add(next.A, next.x, A, level.x);
-  for_rows(A, 1, 2, solve_row);
-  for_rows(A, 0, 2, solve_row);
+  for (int sweep = 0; sweep < sweeps_; ++sweep) {
+    relax(level.A, level.lines, even, r, sweep == 0, x);
+    relax(level.A, level.lines, odd, r, false, x);
+  }
+  restrict_residual(level.A, r, sweeps_ == 1, x, next.A, next.r);
+  cycle(number + 1, next.r, next.x);
+  correct_even_rows(next.A, next.x, level.A, x);
+  for (int sweep = 0; sweep < sweeps_; ++sweep) {
+    relax(level.A, level.lines, odd, r, false, x);
+    relax(level.A, level.lines, even, r, false, x);
+  }
 }
 
-void Multigrid::solve_coarsest() {
-  Level& level = levels_.back();
-  Eigen::VectorXd r(static_cast<Index>(coarsest_cells_.size()));
-  for (Index k = 0; k < r.size(); ++k)
-    r[k] = static_cast<double>(level.r[coarsest_cells_[static_cast<size_t>(k)]]);
-  const Eigen::VectorXd x = coarsest_.solve(r);
-  level.x.setZero();
-  for (Index k = 0; k < r.size(); ++k)
-    level.x[coarsest_cells_[static_cast<size_t>(k)]] = static_cast<float>(x[k]);
+void Multigrid::solve_coarsest(const VectorXf& r, VectorXf& x) const {
+  Eigen::VectorXd b(static_cast<Index>(coarsest_cells_.size()));
+  for (Index k = 0; k < b.size(); ++k) b[k] = static_cast<double>(r[coarsest_cells_[static_cast<size_t>(k)]]);
+  const Eigen::VectorXd solution = coarsest_.solve(b);
+  for (Index k = 0; k < b.size(); ++k)
+    x[coarsest_cells_[static_cast<size_t>(k)]] = static_cast<float>(solution[k]);
 }
 
 }  // namespace rakelight

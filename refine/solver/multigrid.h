@@ -10,27 +10,11 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <vector>
 
+#include "refine/solver/line_solver.h"
+
 namespace rakelight {
-
-/// Symmetric 9-point stencil on width x height pixels with a border of zeros one pixel wide.
-struct StencilGrid {
-  int width = 0, height = 0;
-  Eigen::VectorXf diagonal;                            ///< entry (i, i); 0 outside the mask
-  Eigen::VectorXf right, down, down_right, down_left;  ///< entry (i, neighbour in that direction)
-
-  StencilGrid() = default;
-  StencilGrid(int width_px, int height_px);
-
-  Eigen::Index stride() const { return width + 2; }
-  Eigen::Index size() const { return stride() * (height + 2); }
-  Eigen::Index at(int x, int y) const { return (y + 1) * stride() + x + 1; }
-
-  /// y = A x for vectors of size().
-  void multiply(const Eigen::VectorXf& x, Eigen::VectorXf& y) const;
-};
 
 /// Approximate inverse of a positive definite stencil.
 class Multigrid {
@@ -38,7 +22,10 @@ class Multigrid {
   /// Builds the coarser stencils. @return false when the matrix is seen not to be positive definite.
   bool setup(StencilGrid finest);
 
-  /// z = M r with M symmetric positive definite, close to inv(A).
+  /// How often each level is relaxed before and after its correction: 1, or more where the entries vary wildly.
+  void set_sweeps(int sweeps) { sweeps_ = sweeps; }
+
+  /// z = M r with M symmetric positive definite, close to inv(A). @param z of size() with zeros in its borders, or empty
   void apply(const Eigen::VectorXf& r, Eigen::VectorXf& z);
 
   const StencilGrid& finest() const { return levels_.front().A; }
@@ -46,15 +33,15 @@ class Multigrid {
  private:
   struct Level {
     StencilGrid A;
-    Eigen::VectorXf inverse_pivot, multiplier;  ///< of each row's tridiagonal part, factorised L D L'
-    Eigen::VectorXf x, r, residual;
+    LineSolver lines;
+    Eigen::VectorXf x, r;  ///< of the coarser levels: correction and right-hand side
   };
 
-  static bool factorize_rows(Level& level);
   bool factorize_coarsest();
-  void cycle(size_t level);
-  void solve_coarsest();
+  void cycle(size_t level, const Eigen::VectorXf& r, Eigen::VectorXf& x);
+  void solve_coarsest(const Eigen::VectorXf& r, Eigen::VectorXf& x) const;
 
+  int sweeps_ = 1;
   std::vector<Level> levels_;
   std::vector<Eigen::Index> coarsest_cells_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;

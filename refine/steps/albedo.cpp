@@ -2,53 +2,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/steps/albedo.h"
 
-#include "refine/lamp_shading.h"
+#include "refine/kernels/image_kernels.h"
+#include "refine/tiles.h"
 
 namespace rakelight {
 
 Eigen::Matrix3Xf estimate_albedo(const Observations& images, const SurfaceState& state) {
   Eigen::Matrix3Xf albedo = state.albedo;
-  for_each_block(images.pixels, [&](int begin, int end) {
-    const int count = end - begin;
-    Eigen::ArrayX3f numerator = Eigen::ArrayX3f::Zero(count, 3), denominator = numerator;
-    ShadingBlock model;
-    for (int i = 0; i < images.images; ++i) {
-      shade(state.lamps[static_cast<size_t>(i)], state, begin, end, model);
-      const float* weight =
-          state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels) + begin;
-      for (int c = 0; c < 3; ++c) {
-        const float* S = model.S[static_cast<size_t>(c)].data();
-        const float* I = images.channel(i, c) + begin;
-        const unsigned char* usable = images.usable_in(i, c) + begin;
-        float *sum_SI = numerator.col(c).data(), *sum_SS = denominator.col(c).data();
-        for (int k = 0; k < count; ++k) {
-          const float wS = weight[k] * static_cast<float>(usable[k]) * S[k];
-          sum_SI[k] += wS * I[k];
-          sum_SS[k] += wS * S[k];
-        }
-      }
-    }
-    for (int k = 0; k < count; ++k) {
-      for (int c = 0; c < 3; ++c) {
-        if (denominator(k, c) > 1e-8f)
-          albedo(c, begin + k) = std::max(0.0f, numerator(k, c) / denominator(k, c));
-      }
-    }
+  const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
+  for_each_tile(images, state, [&](Tile& tile) {
+    kernels::TileRow SI[3] = {}, SS[3] = {};
+    for (int i = 0; i < images.images; ++i)
+      kernels::add_albedo_sums(tile.surface(), lamps[static_cast<size_t>(i)], tile.image(i), SI, SS);
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < tile.count(); ++k)
+        if (SS[c].at[k] > 1e-8f) albedo(c, tile.begin() + k) = std::max(0.0f, SI[c].at[k] / SS[c].at[k]);
   });
   return albedo;
 }
 
 void normalize_albedo(SurfaceState& state) {
-  for (int c = 0; c < 3; ++c) {
-    const float mean = static_cast<float>(state.albedo.row(c).cast<double>().mean());
-    if (!(mean > 0.0f)) continue;
-    state.albedo.row(c) /= mean;
-    for (Lamp& lamp : state.lamps) {
-      lamp.l.row(c) *= mean;
-      lamp.Q[static_cast<size_t>(c)] *= mean;
-      lamp.phi[c] *= mean;
-      lamp.strength[c] *= mean;
-    }
+  const auto pixels = static_cast<int>(state.albedo.cols());
+  const auto block_sum = [&](int begin, int end) -> Eigen::Vector3d {
+    return state.albedo.middleCols(begin, end - begin).rowwise().sum().cast<double>();
+  };
+  const Eigen::Vector3d mean = sum_over_blocks(pixels, Eigen::Vector3d(0, 0, 0), block_sum) / pixels;
+  const Eigen::Vector3f scale = (mean.array() > 0).select(mean, 1.0).cast<float>();
+  const Eigen::Vector3f inverse = scale.cwiseInverse();
+  for_each_block(pixels, [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) state.albedo.col(p) = state.albedo.col(p).cwiseProduct(inverse);
+  });
+  for (Lamp& lamp : state.lamps) {
+    lamp.l = scale.asDiagonal() * lamp.l;
+    for (size_t c = 0; c < 3; ++c) lamp.Q[c] *= scale[static_cast<Eigen::Index>(c)];
+    lamp.phi = lamp.phi.cwiseProduct(scale);
+    lamp.strength = lamp.strength.cwiseProduct(scale);
   }
 }
 

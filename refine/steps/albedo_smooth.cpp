@@ -18,7 +18,10 @@ constexpr double kAlbedoTolerance = 1e-2;
 constexpr float kDimShading = 0.1f;  // of the median shading: below, a pixel does not speak for the albedo
 
 float brightest(const Observations& image) {
-  return std::max(1e-6f, *std::max_element(image.radiance.begin(), image.radiance.end()));
+  float most = 1e-6f;
+  for (int c = 0; c < 3; ++c)
+    for (int p = 0; p < image.pixels; ++p) most = std::max(most, image.channel(0, c)[p]);
+  return most;
 }
 
 Eigen::Matrix3Xd log_radiance(const Observations& image) {
@@ -82,13 +85,13 @@ bool AlbedoSmoother::solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd
   DepthSystem system(count);
   system.cell_weight = Eigen::VectorXd::Zero(count);
   Eigen::Matrix3Xd rest = weighted_target - log_albedo * weight.asDiagonal();
-  Eigen::VectorXd::Map(system.diagonal.data(), count) = weight;
-  const auto couple = [&](int p, int q, double v, double& entry) {
+  Eigen::VectorXf::Map(system.diagonal.data(), count) = weight.cast<float>();
+  const auto couple = [&](int p, int q, double v, float& entry) {
     if (q < 0) return;
     v *= options_.smoothness;
-    system.diagonal[static_cast<size_t>(p)] += v;
-    system.diagonal[static_cast<size_t>(q)] += v;
-    entry = -v;
+    system.diagonal[static_cast<size_t>(p)] += static_cast<float>(v);
+    system.diagonal[static_cast<size_t>(q)] += static_cast<float>(v);
+    entry = -static_cast<float>(v);
     const Eigen::Vector3d flow = v * (log_albedo.col(q) - log_albedo.col(p));
     rest.col(p) += flow;
     rest.col(q) -= flow;

@@ -33,8 +33,8 @@ BroadPixel broad_pixel(const BroadShape* shape, const SurfaceState& state, int p
   J << 1, 0, 0, 1, -x, -y;
   J /= d;
   pixel.normal_by_c = (J - pixel.normal * (pixel.normal.transpose() * J)) * gradient;
-  const auto cell = static_cast<size_t>(shape->prior.cells.cell_of[static_cast<size_t>(p)]);
-  const auto size = static_cast<double>(shape->prior.cells.pixels_of[cell].size());
+  const int cell = shape->prior.cells.cell_of[static_cast<size_t>(p)];
+  const auto size = static_cast<double>(shape->prior.cells.of(cell).size());
   pixel.prior_weight = shape->prior.cell_weight[static_cast<Eigen::Index>(cell)] / size;
   pixel.prior_miss = state.zeta[p] - shape->prior.cell_target[static_cast<Eigen::Index>(cell)];
   return pixel;

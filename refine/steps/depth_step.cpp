@@ -3,219 +3,147 @@
 #include "refine/steps/depth_step.h"
 
 #include <algorithm>
-#include <opencv2/core/utility.hpp>
-
-#include "refine/pixel_blocks.h"
+#include <limits>
 
 namespace rakelight {
 namespace {
 
-/// Calls body(k, corner) for the corners that pixel p has.
-template <class Body>
-void for_each_corner(const CornerList& corners, int p, const Body& body) {
-  const auto& list = corners.corners[static_cast<size_t>(p)];
-  for (size_t k = 0; k < list.size() && list[k].x_neighbor >= 0; ++k) body(k, list[k]);
+kernels::TensorRun tensor_run(const PhotometricTensors& tensors, const PixelRun& run) {
+  kernels::TensorRun parts;
+  for (size_t k = 0; k < PhotometricTensors::kParts; ++k)
+    parts.part[k] = tensors.part(static_cast<PhotometricTensors::Part>(k)) + run.first;
+  return parts;
 }
 
-float corner_energy(const DepthProblem& problem, int p, const Corner& corner, const Eigen::VectorXd& zeta) {
-  const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
-  const Eigen::Vector3f n = normal_frame(problem.grid, p).raw(g.x(), g.y()).normalized();
-  return problem.tensors[static_cast<size_t>(p)].energy(n);
+const float* weights_of(const CornerWeights& weights, const PixelRun& run) {
+  return weights[static_cast<size_t>(run.first)].data();
 }
 
-/// Half Hessian (2 x 2) and minus half gradient of e(n) by the gradient (zeta_x, zeta_y).
-struct GradientEquations {
-  Eigen::Matrix2f A;
-  Eigen::Vector2f b;
-};
-
-GradientEquations gauss_newton(const PhotometricTensor& e, const NormalFrame& frame,
-                               const Eigen::Vector2f& g) {
-  const Eigen::Vector3f raw = frame.raw(g.x(), g.y());
-  const float d = raw.norm();
-  const Eigen::Vector3f n = raw / d;
-  const Eigen::Matrix<float, 3, 2> J = frame.jacobian() / d;
-  const Eigen::Matrix<float, 3, 2> dn = J - n * (n.transpose() * J);
-  return {dn.transpose() * e.G * dn, dn.transpose() * (e.h - e.G * n)};
-}
-
-GradientEquations fixed_point(const PhotometricTensor& e, const NormalFrame& frame,
-                              const Eigen::Vector2f& g) {
-  const Eigen::Vector3f raw = frame.raw(g.x(), g.y());
-  const float d = raw.norm();
-  const Eigen::Matrix<float, 3, 2> J = frame.jacobian() / d;
-  return {J.transpose() * e.G * J, J.transpose() * (e.h - e.G * (raw / d))};
-}
-
-/// One pixel's rows summed over its corners, zeta_x = sx (zeta_a - zeta_p), zeta_y = sy (zeta_b - zeta_p); the index of
-/// a pair is the corner's, 2 (sy < 0) + (sx < 0).
-struct PixelRows {
-  std::array<double, 2> xx{}, yy{}, bx{}, by{};  ///< towards right and left, down and up
-  std::array<double, 4> xy{};                    ///< signed: the entry of the pair (a, b)
-};
-
-/// Median over the corners there are.
-float median_energy(const CornerList& corners, const std::vector<std::array<float, 4>>& energy) {
-  std::vector<float> sorted;
-  sorted.reserve(4 * energy.size());
-  for (size_t p = 0; p < energy.size(); ++p)
-    for_each_corner(corners, static_cast<int>(p),
-                    [&](size_t k, const Corner&) { sorted.push_back(energy[p][k]); });
-  if (sorted.empty()) return 0;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+/// Median energy over the corners of a fixed choice of rows, enough for one good to a percent.
+float median_energy(const PixelGrid& grid, const ZetaImage& image, const CornerList& corners,
+                    const PhotometricTensors& tensors) {
+  constexpr int kSamples = 20000;  // pixels
+  const int step = std::max(1, grid.size() / kSamples);
+  std::vector<float> energies, row(static_cast<size_t>(kCorners * grid.box.width));
+  for (int y = 0; y < grid.box.height; y += step) {
+    for_each_run(grid, y, [&](const PixelRun& run) {
+      kernels::corner_energies(image.run(corners, y, run), tensor_run(tensors, run), row.data());
+      for (int k = 0; k < kCorners * run.count; ++k)
+        if (corners.has(run.first + k / kCorners, k % kCorners)) energies.push_back(row[static_cast<size_t>(k)]);
+    });
+  }
+  if (energies.empty()) return 0;
+  const auto middle = energies.begin() + static_cast<std::ptrdiff_t>(energies.size() / 2);
+  std::nth_element(energies.begin(), middle, energies.end());
   return *middle;
 }
 
-constexpr size_t kRightDown = 0, kLeftDown = 1, kRightUp = 2, kLeftUp = 3;
+/// The equations of three rows in turn: what the systems' rows are gathered from.
+class EquationRows {
+ public:
+  explicit EquationRows(const PixelGrid& grid)
+      : left_(grid.box.x), stride_(static_cast<size_t>(grid.box.width + 2 + kVectorPadding)), values_(3 * kParts * stride_) {}
 
-void add_corner(const Corner& corner, const GradientEquations& equations, PixelRows& rows) {
-  const auto sx = static_cast<double>(corner.x_sign), sy = static_cast<double>(corner.y_sign);
-  const size_t x = sx > 0 ? 0 : 1, y = sy > 0 ? 0 : 1;
-  rows.xx[x] += static_cast<double>(equations.A(0, 0));
-  rows.yy[y] += static_cast<double>(equations.A(1, 1));
-  rows.xy[2 * y + x] += static_cast<double>(equations.A(0, 1)) * sx * sy;
-  rows.bx[x] += static_cast<double>(equations.b.x()) * sx;
-  rows.by[y] += static_cast<double>(equations.b.y()) * sy;
-}
-
-/// Entry (i, i) and right-hand side of each pixel's row, and its entries to the pixels on the right and below: what
-/// the pixel's own rows and those of its neighbours add up to.
-void gather_rows(const PixelGrid& grid, const std::vector<PixelRows>& all, int p, DepthSystem& system) {
-  const auto i = static_cast<size_t>(p);
-  const PixelRows& own = all[i];
-  static const PixelRows kNone;
-  const auto of = [&](Neighbor direction) -> const PixelRows& {
-    const int q = grid.neighbor[direction][i];
-    return q < 0 ? kNone : all[static_cast<size_t>(q)];
-  };
-  const PixelRows &right = of(kRight), &left = of(kLeft), &down = of(kDown), &up = of(kUp);
-  system.diagonal[i] = own.xx[0] + own.xx[1] + own.yy[0] + own.yy[1] +
-                       2 * (own.xy[kRightDown] + own.xy[kLeftDown] + own.xy[kRightUp] + own.xy[kLeftUp]) +
-                       left.xx[0] + right.xx[1] + up.yy[0] + down.yy[1];
-  system.right[i] = -(own.xx[0] + own.xy[kRightDown] + own.xy[kRightUp]) -
-                    (right.xx[1] + right.xy[kLeftDown] + right.xy[kLeftUp]);
-  system.down[i] = -(own.yy[0] + own.xy[kRightDown] + own.xy[kLeftDown]) -
-                   (down.yy[1] + down.xy[kRightUp] + down.xy[kLeftUp]);
-  system.down_right[i] = right.xy[kLeftDown] + down.xy[kRightUp];
-  system.down_left[i] = left.xy[kRightDown] + down.xy[kLeftUp];
-  system.rhs[p] =
-      left.bx[0] + right.bx[1] + up.by[0] + down.by[1] - (own.bx[0] + own.bx[1] + own.by[0] + own.by[1]);
-}
-
-/// Adds w (rho l_c, rest) of the lit channels to the tensor; light of a near lamp is one vector times a strength.
-void add_near_sample(const Eigen::Vector3f& v, const Eigen::Vector3f& strength, const Eigen::Vector3f& rest,
-                     float weight, PhotometricTensor& sum) {
-  sum.G.noalias() += (weight * strength.squaredNorm()) * v * v.transpose();
-  sum.h += weight * strength.dot(rest) * v;
-}
-
-void add_far_sample(const Eigen::Matrix3f& l, const Eigen::Vector3f& lit, const Eigen::Vector3f& rest,
-                    float weight, PhotometricTensor& sum) {
-  for (int c = 0; c < 3; ++c) {
-    if (lit[c] == 0.0f) continue;
-    const Eigen::Vector3f lc = lit[c] * l.row(c).transpose();
-    sum.G.noalias() += (weight * lc) * lc.transpose();
-    sum.h += weight * rest[c] * lc;
+  /// The box's row y, from column x on.
+  kernels::EquationRow row(int y, int x) {
+    const size_t slot = static_cast<size_t>((y + 3) % 3);
+    float* begin = values_.data() + slot * kParts * stride_ + 1 + static_cast<size_t>(x - left_);
+    const auto part = [&](size_t k) { return begin + k * stride_; };
+    return {{part(0), part(1)}, {part(2), part(3)}, {part(4), part(5)}, {part(6), part(7)},
+            {part(8), part(9), part(10), part(11)}};
   }
-}
+
+  void clear(int y) {
+    const size_t row = kParts * stride_;
+    std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>((y + 3) % 3) * row), row, 0.0f);
+  }
+
+ private:
+  static constexpr size_t kParts = 12;
+  int left_;
+  size_t stride_;
+  std::vector<float> values_;
+};
+
+/// Fills the photometric part of the system, strip by strip; a strip computes the rows beside it once more.
+class Assembly {
+ public:
+  Assembly(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization, DepthSystem& system)
+      : problem_(problem),
+        image_(problem.grid, zeta),
+        turning_(linearization == Linearization::gauss_newton),
+        system_(system) {}
+
+  /// @return the photometric energy of the rows
+  double add_rows(int begin, int end) const {
+    EquationRows equations(problem_.grid);
+    std::vector<float> rhs(static_cast<size_t>(problem_.grid.box.width));
+    compute_row(begin - 1, equations);
+    double energy = compute_row(begin, equations);
+    for (int y = begin; y < end; ++y) {
+      const double next = compute_row(y + 1, equations);
+      if (y + 1 < end) energy += next;
+      for_each_run(problem_.grid, y, [&](const PixelRun& run) { gather_run(y, run, equations, rhs); });
+    }
+    return energy;
+  }
+
+ private:
+  double compute_row(int y, EquationRows& equations) const {
+    equations.clear(y);
+    double energy = 0;
+    if (y < 0 || y >= problem_.grid.box.height) return energy;
+    for_each_run(problem_.grid, y, [&](const PixelRun& run) {
+      energy += static_cast<double>(
+          kernels::corner_equations(image_.run(problem_.corners, y, run), tensor_run(problem_.tensors, run),
+                                    weights_of(problem_.corner_weight, run), turning_, equations.row(y, run.x)));
+    });
+    return energy;
+  }
+
+  void gather_run(int y, const PixelRun& run, EquationRows& equations, std::vector<float>& rhs) const {
+    const auto at = [&](std::vector<float>& entries) { return entries.data() + run.first; };
+    kernels::gather_equations(equations.row(y - 1, run.x), equations.row(y, run.x), equations.row(y + 1, run.x), run.count,
+                              {at(system_.diagonal), at(system_.right), at(system_.down), at(system_.down_right),
+                               at(system_.down_left), rhs.data()});
+    system_.rhs.segment(run.first, run.count) = Eigen::VectorXf::Map(rhs.data(), run.count).cast<double>();
+  }
+
+  const DepthProblem& problem_;
+  ZetaImage image_;
+  bool turning_;
+  DepthSystem& system_;
+};
 
 }  // namespace
 
-std::vector<PhotometricTensor> accumulate_tensors(const Observations& images, const SurfaceState& state) {
-  std::vector<PhotometricTensor> tensors(static_cast<size_t>(images.pixels));
-  for_each_block(images.pixels, [&](int begin, int end) {
-    for (int i = 0; i < images.images; ++i) {
-      const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
-      const float* weight = state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
-      for (int p = begin; p < end; ++p) {
-        if (weight[p] == 0.0f) continue;
-        PhotometricTensor& sum = tensors[static_cast<size_t>(p)];
-        const Eigen::Vector3f rho = images.usable_channels(i, p).cwiseProduct(state.albedo.col(p));
-        const Eigen::Vector3f n = state.normals.col(p);
-        const LocalLight far = lamp.second_order ? light_at(lamp, state.points.col(p), n, state.scene)
-                                                 : LocalLight{lamp.l, lamp.phi};
-        const Eigen::Vector3f rest =
-            images.usable_channels(i, p).cwiseProduct(images.radiance_at(i, p)) - rho.cwiseProduct(far.phi);
-        sum.e0 += weight[p] * rest.squaredNorm();
-        if (lamp.near) {
-          const Eigen::Vector3f v =
-              near_light_vector(lamp.direction, lamp.inverse_distance,
-                                state.points.col(p) - state.scene.center, state.scene.lobe_exponent);
-          if (!state.attached_shadows || v.dot(n) > 0.0f)
-            add_near_sample(v, rho.cwiseProduct(lamp.strength), rest, weight[p], sum);
-        } else {
-          Eigen::Vector3f lit = rho;
-          if (state.attached_shadows) lit = ((far.l * n).array() > 0.0f).select(lit, 0.0f);
-          add_far_sample(far.l, lit, rest, weight[p], sum);
-        }
-      }
-    }
+CornerWeights corner_weights(const PixelGrid& grid, const CornerList& corners, const PhotometricTensors& tensors,
+                             const Eigen::VectorXd& zeta, double edge_weight) {
+  CornerWeights weights(static_cast<size_t>(grid.size()));
+  const ZetaImage image(grid, zeta);
+  const float half = edge_weight > 0 ? static_cast<float>(edge_weight) * median_energy(grid, image, corners, tensors) : 0;
+  for_each_run(grid, [&](int y, const PixelRun& run) {
+    kernels::corner_weights(image.run(corners, y, run), tensor_run(tensors, run), corners.weight.data() + run.first,
+                            half > 0 ? half : std::numeric_limits<float>::infinity(),
+                            weights[static_cast<size_t>(run.first)].data());
   });
-  return tensors;
-}
-
-std::vector<std::array<float, 4>> corner_weights(const PixelGrid& grid, const CornerList& corners,
-                                                 const std::vector<PhotometricTensor>& tensors,
-                                                 const Eigen::VectorXd& zeta, double edge_weight) {
-  std::vector<std::array<float, 4>> weights(static_cast<size_t>(grid.size()));
-  for_each_block(grid.size(), [&](int begin, int end) {
-    for (int p = begin; p < end; ++p) {
-      const size_t at = static_cast<size_t>(p);
-      for_each_corner(corners, p, [&](size_t k, const Corner& corner) {
-        const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
-        weights[at][k] =
-            std::max(0.0f, tensors[at].energy(normal_frame(grid, p).raw(g.x(), g.y()).normalized()));
-      });
-    }
-  });
-  const float half = edge_weight > 0 ? static_cast<float>(edge_weight) * median_energy(corners, weights) : 0;
-  for (int p = 0; p < grid.size(); ++p) {
-    const size_t at = static_cast<size_t>(p);
-    for (float& w : weights[at]) w = corners.weight[at] / (half > 0 ? std::sqrt(1.0f + w / half) : 1.0f);
-  }
   return weights;
 }
 
 double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta) {
-  const double photometric = sum_over_blocks(problem.grid.size(), 0.0, [&](int begin, int end) {
-    double sum = 0;
-    for (int p = begin; p < end; ++p) {
-      for_each_corner(problem.corners, p, [&](size_t k, const Corner& corner) {
-        sum += static_cast<double>(problem.corner_weight[static_cast<size_t>(p)][k] *
-                                   corner_energy(problem, p, corner, zeta));
-      });
-    }
-    return sum;
+  const ZetaImage image(problem.grid, zeta);
+  const double photometric = sum_over_runs(problem.grid, [&](int y, const PixelRun& run) {
+    return kernels::weighted_energy(image.run(problem.corners, y, run), tensor_run(problem.tensors, run),
+                                    weights_of(problem.corner_weight, run));
   });
-  const double smoothness =
-      problem.curvature.empty() ? 0 : curvature_energy(problem.grid, problem.curvature, zeta);
+  const double smoothness = problem.curvature.empty() ? 0 : curvature_energy(problem.grid, problem.curvature, zeta);
   return photometric + prior_energy(problem.prior, zeta) + smoothness;
 }
 
-DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
-                         Linearization linearization) {
-  const int pixels = problem.grid.size();
-  std::vector<PixelRows> rows(static_cast<size_t>(pixels));
-  for_each_block(pixels, [&](int begin, int end) {
-    for (int p = begin; p < end; ++p) {
-      const NormalFrame frame = normal_frame(problem.grid, p);
-      const PhotometricTensor& e = problem.tensors[static_cast<size_t>(p)];
-      for_each_corner(problem.corners, p, [&](size_t k, const Corner& corner) {
-        const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
-        GradientEquations equations = linearization == Linearization::gauss_newton ? gauss_newton(e, frame, g)
-                                                                                   : fixed_point(e, frame, g);
-        const float weight = problem.corner_weight[static_cast<size_t>(p)][k];
-        equations.A *= weight;
-        equations.b *= weight;
-        add_corner(corner, equations, rows[static_cast<size_t>(p)]);
-      });
-    }
-  });
-  DepthSystem system(pixels);
-  for_each_block(pixels, [&](int begin, int end) {
-    for (int p = begin; p < end; ++p) gather_rows(problem.grid, rows, p, system);
-  });
+DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization) {
+  DepthSystem system(problem.grid.size());
+  const Assembly assembly(problem, zeta, linearization, system);
+  for_each_strip(problem.grid, [&](int begin, int end) { assembly.add_rows(begin, end); });
   add_prior(problem.prior, zeta, system);
   if (!problem.curvature.empty()) {
     system.curvature = problem.curvature;

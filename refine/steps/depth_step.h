@@ -3,51 +3,49 @@
 //
 // Eq. (29)-(32), corrected: one step of the depth, given lamps and albedo.
 //
-// With lamps and albedo held, the photometric energy of a pixel is quadratic in its normal, whatever the number of images:
-//
-//     e(n) = n' G n - 2 h' n + e0,   G = sum w rho^2 l l',  h = sum w rho l (I - rho phi),  e0 = sum w (I - rho phi)^2
-//
-// so the images are read once, and the step works on ten numbers a pixel.
+// With lamps and albedo held, the images are ten numbers a pixel (refine/steps/photometric_tensor.h), and the step is that of
+// the energy sum weight e(n) over the corners of all pixels:
 //   Gauss-Newton:  dn = (I - n n') J / d  d(zeta_x, zeta_y)   (d n / d gradient, METHODS: "Eq. 13 and Alg. 3")
 //   fixed point:   n = J' / d with d frozen                   (the paper)
 #pragma once
 
-#include "refine/observations.h"
+#include "refine/grid_rows.h"
 #include "refine/solver/depth_solver.h"
 #include "refine/steps/normals.h"
+#include "refine/steps/photometric_tensor.h"
 #include "refine/steps/super_resolution.h"
-#include "refine/surface_state.h"
 
 namespace rakelight {
 
-/// Quadratic form e(n) of one pixel.
-struct PhotometricTensor {
-  Eigen::Matrix3f G = Eigen::Matrix3f::Zero();
-  Eigen::Vector3f h = Eigen::Vector3f::Zero();
-  float e0 = 0;
+/// Four weights a pixel, one a corner; 0 for the corners it does not have.
+class CornerWeights {
+ public:
+  explicit CornerWeights(size_t pixels = 0) : values_(pixels + kVectorPadding), pixels_(pixels) {}
 
-  float energy(const Eigen::Vector3f& n) const { return n.dot(G * n) - 2.0f * h.dot(n) + e0; }
+  size_t size() const { return pixels_; }
+  std::array<float, kCorners>& operator[](size_t pixel) { return values_[pixel]; }
+  const std::array<float, kCorners>& operator[](size_t pixel) const { return values_[pixel]; }
+
+ private:
+  std::vector<std::array<float, kCorners>> values_;
+  size_t pixels_;
 };
-
-/// Tensors of all pixels under the state's weights. Samples on the far side of a lamp (l.n <= 0) count in e0 only.
-std::vector<PhotometricTensor> accumulate_tensors(const Observations& images, const SurfaceState& state);
 
 /// Everything of a depth step that stays while the depth moves.
 struct DepthProblem {
   const PixelGrid& grid;
   const CornerList& corners;
-  const std::vector<PhotometricTensor>& tensors;
-  const std::vector<std::array<float, 4>>& corner_weight;  ///< see corner_weights
+  const PhotometricTensors& tensors;
+  const CornerWeights& corner_weight;  ///< see corner_weights
   const DepthPrior& prior;
   CurvatureWeights curvature = {};  ///< smoothness of zeta; empty: none
 };
 
-/// Weight of each corner: 1 / corners of the pixel, divided by sqrt(1 + e / (edge_weight median e)), e its energy at zeta,
+/// Weight of each corner: 1 / corners of the pixel (CornerList::weight), divided by sqrt(1 + e / (edge_weight median e)), e its energy at zeta,
 /// so that gradients do not cross occlusions. The root makes a corner's say level off rather than vanish: without it, where
 /// lamps miss a little everywhere, the surface tears along lines instead of bending.
-std::vector<std::array<float, 4>> corner_weights(const PixelGrid& grid, const CornerList& corners,
-                                                 const std::vector<PhotometricTensor>& tensors,
-                                                 const Eigen::VectorXd& zeta, double edge_weight);
+CornerWeights corner_weights(const PixelGrid& grid, const CornerList& corners, const PhotometricTensors& tensors,
+                             const Eigen::VectorXd& zeta, double edge_weight);
 
 /// sum over corners of weight e(n) + the prior's energy + that of the curvature.
 double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta);

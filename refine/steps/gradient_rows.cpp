@@ -6,9 +6,10 @@
 
 namespace rakelight {
 
-Eigen::Vector2d forward_gradient(const CornerList& corners, int p, const Eigen::VectorXd& x) {
-  const Corner& corner = corners.corners[static_cast<size_t>(p)][0];
-  if (corner.x_neighbor < 0) return Eigen::Vector2d::Zero();
+Eigen::Vector2d forward_gradient(const PixelGrid& grid, const CornerList& corners, int p, const Eigen::VectorXd& x) {
+  const int k = corners.first(p);
+  if (k < 0) return Eigen::Vector2d::Zero();
+  const Corner corner = corner_at(grid, p, k);
   return {static_cast<double>(corner.x_sign) * (x[corner.x_neighbor] - x[p]),
           static_cast<double>(corner.y_sign) * (x[corner.y_neighbor] - x[p])};
 }
@@ -18,8 +19,9 @@ Eigen::SparseMatrix<double> normal_matrix(const GradientProblem& problem, Eigen:
   rhs = problem.prior_weight * problem.x0;
   for (int p = 0; p < static_cast<int>(rhs.size()); ++p) entries.emplace_back(p, p, problem.prior_weight);
   for (const GradientRow& row : problem.rows) {
-    const Corner& corner = problem.corners.corners[static_cast<size_t>(row.pixel)][0];
-    if (corner.x_neighbor < 0) continue;
+    const int k = problem.corners.first(row.pixel);
+    if (k < 0) continue;
+    const Corner corner = corner_at(problem.grid, row.pixel, k);
     const double ax = static_cast<double>(corner.x_sign) * row.a.x(), ay = static_cast<double>(corner.y_sign) * row.a.y();
     const std::array<std::pair<int, double>, 3> terms{{{corner.x_neighbor, ax}, {corner.y_neighbor, ay},
                                                        {row.pixel, -ax - ay}}};
@@ -46,7 +48,7 @@ bool solve_gradient_rows(const GradientProblem& problem, SparseCholesky& solver,
 double gradient_energy(const GradientProblem& problem, const Eigen::VectorXd& x) {
   double sum = problem.prior_weight * (x - problem.x0).squaredNorm() + problem.smoothness.energy(x);
   for (const GradientRow& row : problem.rows) {
-    const double miss = row.a.dot(forward_gradient(problem.corners, row.pixel, x)) - row.b;
+    const double miss = row.a.dot(forward_gradient(problem.grid, problem.corners, row.pixel, x)) - row.b;
     sum += miss * miss;
   }
   return sum;

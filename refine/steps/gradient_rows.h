@@ -21,6 +21,7 @@ struct GradientRow {
 
 /// One depth system; corners are those of the forward stencil (one a pixel), pixels without a corner have no row.
 struct GradientProblem {
+  const PixelGrid& grid;
   const CornerList& corners;
   std::vector<GradientRow> rows;
   double prior_weight = 0;  ///< lambda_z
@@ -29,7 +30,7 @@ struct GradientProblem {
 };
 
 /// Forward differences of x at a pixel, zero where it has no corner.
-Eigen::Vector2d forward_gradient(const CornerList& corners, int p, const Eigen::VectorXd& x);
+Eigen::Vector2d forward_gradient(const PixelGrid& grid, const CornerList& corners, int p, const Eigen::VectorXd& x);
 
 /// Normal equations: lower triangle and right-hand side.
 Eigen::SparseMatrix<double> normal_matrix(const GradientProblem& problem, Eigen::VectorXd& rhs);

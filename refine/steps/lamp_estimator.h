@@ -8,6 +8,7 @@
 // near model does no harm; it is kept only if it explains the images clearly better.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "refine/options.h"
@@ -28,9 +29,14 @@ class LampEstimator {
   /// Whether the last update moved the lamps too little to matter.
   bool settled() const { return settled_; }
 
-  /// Of each lamp's position, after the last update; empty where all lamps are far.
-  std::vector<LampUncertainty> uncertainty(const RefineProblem& problem, const DepthPrior& prior,
-                                           const SurfaceState& state) const;
+  /// Each lamp's position, after the last update; empty where all lamps are far. A last fit on the finished
+  /// surface, because the updates stop where the shape no longer gains.
+  std::vector<LampUncertainty> positions(const RefineProblem& problem, const DepthPrior& prior,
+                                         SurfaceState state) const;
+
+  /// The images as the steps after the lamps should take them: without the highlights that the near lamps' fit has found.
+  /// Changes with an update. The far model knows no highlights: as seen.
+  const Observations& matt_images(const Observations& seen) const { return matt_ ? *matt_ : seen; }
 
   /// One sentence: the model used, and why.
   std::string explanation() const { return explanation_; }
@@ -41,10 +47,13 @@ class LampEstimator {
  private:
   NearLampOptions fit_options() const;
   void start_near(const Observations& images, SurfaceState& state);
+  void renew_matt_images(const Observations& seen, const SurfaceState& state);
   void choose(const Observations& images, SurfaceState& state);
 
   LampOptions options_;
   SurfaceState far_state_;  ///< what the far lamps had reached when near ones took over
+  Gloss gloss_ = Gloss::Zero();
+  std::optional<Observations> matt_;
   bool near_ = false;
   bool settled_ = true;
   double far_over_near_ = 0;

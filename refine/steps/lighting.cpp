@@ -4,7 +4,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <limits>
 #include <opencv2/core/utility.hpp>
+
+#include "refine/kernels/image_kernels.h"
+#include "refine/tiles.h"
 
 namespace rakelight {
 namespace {
@@ -16,15 +20,11 @@ struct LightEquations {
   Eigen::Matrix<double, N, 1> b = Eigen::Matrix<double, N, 1>::Zero();
 };
 
-/// What S is linear in: n, 1 and, in the second order, the five harmonics that second_order_matrix puts into Q.
-template <int N>
-Eigen::Matrix<float, N, 1> harmonics(const Eigen::Vector3f& n) {
-  Eigen::Matrix<float, N, 1> h;
-  h.template head<4>() << n.x(), n.y(), n.z(), 1.0f;
-  if constexpr (N == 9) {
-    const float x = n.x(), y = n.y(), z = n.z();
-    h.template tail<5>() << 2 * x * y, 2 * x * z, 2 * y * z, x * x - y * y, 3 * z * z - 1;
-  }
+/// What S is linear in: n, 1 and the five harmonics that second_order_matrix puts into Q.
+Eigen::Matrix<float, 9, 1> harmonics(const Eigen::Vector3f& n) {
+  const float x = n.x(), y = n.y(), z = n.z();
+  Eigen::Matrix<float, 9, 1> h;
+  h << x, y, z, 1.0f, 2 * x * y, 2 * x * z, 2 * y * z, x * x - y * y, 3 * z * z - 1;
   return h;
 }
 
@@ -37,40 +37,35 @@ Eigen::Matrix3f second_order_matrix(const Eigen::Matrix<float, 5, 1>& s) {
   return Q;
 }
 
-/// Sums run in float over short runs of pixels, in double over the runs, in a fixed order.
-template <int N>
-LightEquations<N> light_equations(const Observations& images, int image, int channel, const SurfaceState& state,
-                                  const Lamp& lamp, bool clamp) {
-  const float* radiance = images.channel(image, channel);
-  const unsigned char* usable = images.usable_in(image, channel);
+/// Second order. Sums run in float over short runs of pixels, in double over the runs, in a fixed order.
+LightEquations<9> second_order_equations(const Observations& images, int image, int channel,
+                                         const SurfaceState& state) {
+  constexpr int N = 9;
+  const ChannelSamples radiance = images.channel(image, channel);
   const float* weight = state.weight.data() + static_cast<size_t>(image) * static_cast<size_t>(images.pixels);
   constexpr Eigen::Index kRun = 256;
   LightEquations<N> sum;
-  const Eigen::Vector3f l = lamp.l.row(channel).transpose();
   for (Eigen::Index begin = 0; begin < state.normals.cols(); begin += kRun) {
     const Eigen::Index end = std::min(begin + kRun, state.normals.cols());
     Eigen::Matrix<float, N, N> A = Eigen::Matrix<float, N, N>::Zero();
     Eigen::Matrix<float, N, 1> b = Eigen::Matrix<float, N, 1>::Zero();
     for (Eigen::Index p = begin; p < end; ++p) {
-      const Eigen::Vector3f n = state.normals.col(p);
-      Eigen::Matrix<float, N, 1> h = harmonics<N>(n);
-      if (clamp && l.dot(n) <= 0.0f) h.template head<3>().setZero();
+      const Eigen::Matrix<float, N, 1> h = harmonics(state.normals.col(p));
       const float rho = state.albedo(channel, p);
-      const float trust = weight[p] * static_cast<float>(usable[p]);
+      const float trust = radiance.usable(static_cast<int>(p)) ? weight[p] : 0.0f;
       A.noalias() += (trust * rho * rho) * h * h.transpose();
-      b += (trust * rho * radiance[p]) * h;
+      b += (trust * rho * radiance[static_cast<int>(p)]) * h;
     }
-    sum.A += A.template cast<double>();
-    sum.b += b.template cast<double>();
+    sum.A += A.cast<double>();
+    sum.b += b.cast<double>();
   }
   return sum;
 }
 
+/// Solves one channel's equations into the lamp, which stays as it is when they are singular.
 template <int N>
-void estimate_channel(const Observations& images, int image, int channel, const SurfaceState& state, bool clamp,
-                      Lamp& lamp) {
+void solve_channel(const LightEquations<N>& sum, int channel, Lamp& lamp) {
   using Square = Eigen::Matrix<double, N, N>;
-  const LightEquations<N> sum = light_equations<N>(images, image, channel, state, lamp, clamp);
   const double ridge = 1e-9 * sum.A.trace() + 1e-12;
   const Eigen::LDLT<Square> factor(sum.A + ridge * Square::Identity());
   const Eigen::Matrix<double, N, 1> solution = factor.solve(sum.b);
@@ -81,25 +76,95 @@ void estimate_channel(const Observations& images, int image, int channel, const 
   if constexpr (N == 9) lamp.Q[static_cast<size_t>(channel)] = second_order_matrix(s.template tail<5>());
 }
 
+/// First order: the equations of every image and channel.
+class FirstOrderSums {
+ public:
+  explicit FirstOrderSums(size_t images = 0) : equations_(3 * images) {}
+
+  void add(size_t image, const kernels::LightSums& sums) {
+    for (size_t c = 0; c < 3; ++c) {
+      LightEquations<4>& sum = equations_[3 * image + c];
+      const float* A = sums.A[c];
+      for (Eigen::Index row = 0; row < 4; ++row) {
+        for (Eigen::Index column = row; column < 4; ++column) sum.A(row, column) += static_cast<double>(*A++);
+        sum.b[row] += static_cast<double>(sums.b[c][row]);
+      }
+    }
+  }
+
+  FirstOrderSums& operator+=(const FirstOrderSums& other) {
+    for (size_t k = 0; k < equations_.size(); ++k) {
+      equations_[k].A += other.equations_[k].A;
+      equations_[k].b += other.equations_[k].b;
+    }
+    return *this;
+  }
+
+  LightEquations<4> of(size_t image, size_t channel) const {
+    LightEquations<4> sum = equations_[3 * image + channel];
+    sum.A = Eigen::Matrix4d(sum.A.selfadjointView<Eigen::Upper>());
+    return sum;
+  }
+
+ private:
+  std::vector<LightEquations<4>> equations_;
+};
+
+/// Four unknowns a channel are known to 1e-4 from this many pixels, spread evenly over the surface; more cost time alone.
+constexpr int kEnoughPixels = 1 << 17;
+
+/// @param shadows the lamps whose attached shadows are left out
+FirstOrderSums first_order_sums(const Observations& images, const SurfaceState& state,
+                                const std::vector<kernels::TileLamp>& shadows) {
+  const FirstOrderSums none(shadows.size());
+  const int step = kernels::kTilePixels * std::max(1, images.pixels / kEnoughPixels);
+  return sum_over_blocks(images.pixels, none, [&](int begin, int end) {
+    FirstOrderSums sums = none;
+    Tile tile(images, state);
+    for (int p = begin; p < end; p += step) {
+      tile.move_to(p, std::min(kernels::kTilePixels, end - p));
+      for (size_t i = 0; i < shadows.size(); ++i) {
+        kernels::LightSums of_image;
+        kernels::light_sums(tile.surface(), shadows[i], tile.image(static_cast<int>(i)), tile.count(), of_image);
+        sums.add(i, of_image);
+      }
+    }
+    return sums;
+  });
+}
+
+void estimate_first_order(const Observations& images, const SurfaceState& state, bool clamp, std::vector<Lamp>& lamps) {
+  std::vector<kernels::TileLamp> shadows;
+  for (const Lamp& lamp : lamps) {
+    shadows.push_back(tile_lamp(lamp, state));
+    if (!clamp) shadows.back().least = -std::numeric_limits<float>::infinity();
+  }
+  const FirstOrderSums sums = first_order_sums(images, state, shadows);
+  for (size_t i = 0; i < lamps.size(); ++i)
+    for (int c = 0; c < 3; ++c) solve_channel(sums.of(i, static_cast<size_t>(c)), c, lamps[i]);
+}
+
+void estimate_second_order(const Observations& images, const SurfaceState& state, std::vector<Lamp>& lamps) {
+  cv::parallel_for_(cv::Range(0, images.images), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+      for (int c = 0; c < 3; ++c)
+        solve_channel(second_order_equations(images, i, c, state), c, lamps[static_cast<size_t>(i)]);
+  });
+}
+
 }  // namespace
 
 std::vector<Lamp> estimate_far_lamps(const Observations& images, const SurfaceState& state) {
-  std::vector<Lamp> lamps(static_cast<size_t>(images.images));
   const bool first = state.lamps.empty();
-  const bool clamp = state.attached_shadows && !first;
-  cv::parallel_for_(cv::Range(0, images.images), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) {
-      Lamp& lamp = lamps[static_cast<size_t>(i)] = first ? Lamp{} : state.lamps[static_cast<size_t>(i)];
-      lamp.near = false;
-      lamp.second_order = state.harmonics == 2;
-      for (int c = 0; c < 3; ++c) {
-        if (lamp.second_order)
-          estimate_channel<9>(images, i, c, state, false, lamp);
-        else
-          estimate_channel<4>(images, i, c, state, clamp, lamp);
-      }
-    }
-  });
+  std::vector<Lamp> lamps = first ? std::vector<Lamp>(static_cast<size_t>(images.images)) : state.lamps;
+  for (Lamp& lamp : lamps) {
+    lamp.near = false;
+    lamp.second_order = state.harmonics == 2;
+  }
+  if (state.harmonics == 2)
+    estimate_second_order(images, state, lamps);
+  else
+    estimate_first_order(images, state, state.attached_shadows && !first, lamps);
   return lamps;
 }
 

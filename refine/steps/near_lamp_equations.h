@@ -6,10 +6,8 @@
 
 #include <vector>
 
-#include "refine/observations.h"
-#include "refine/steps/broad_shape.h"
+#include "refine/steps/near_lamp_samples.h"
 #include "refine/steps/near_lamp_unknowns.h"
-#include "refine/surface_state.h"
 
 namespace rakelight {
 
@@ -25,36 +23,11 @@ struct NearLampEquations {
   NearLampEquations& operator+=(const NearLampEquations& other);
 };
 
-class NearLampProblem {
- public:
-  static constexpr int kRegions = 12;
+/// What the images and the sensor's depth leave unexplained in all regions.
+double near_lamp_energy(const std::vector<LampRegion>& regions, const NearLampUnknowns& at);
 
-  /// @param shape nullptr: the surface is held  @param pixels about so many are used, evenly spread
-  NearLampProblem(const Observations& images, const BroadShape* shape, const SurfaceState& state, int pixels);
-
-  /// What the images and the sensor's depth leave unexplained.
-  double energy(const NearLampUnknowns& at) const;
-
-  /// One a region of the picture: their errors have little to do with each other.
-  std::vector<NearLampEquations> equations(const NearLampUnknowns& at) const;
-
-  /// What is known of a rig beforehand, against errors of variance `variance`: little ambient light, and axes that meet
-  /// in the object. It decides only where the images do not.
-  NearLampEquations prior(const NearLampUnknowns& at, double variance) const;
-
- private:
-  struct ChannelSums;
-
-  double pixel_energy(const NearLampUnknowns& at, const BroadPixel& pixel) const;
-  void add_pixel(const NearLampUnknowns& at, const BroadPixel& pixel, std::vector<ChannelSums>& sums,
-                 NearLampEquations& total) const;
-  NearLampEquations region_equations(const NearLampUnknowns& at, const std::vector<BroadPixel>& pixels) const;
-  double weight(int image, int c, int p) const;
-
-  const Observations& images_;
-  const SurfaceState& state_;
-  std::vector<std::vector<BroadPixel>> regions_;
-  Eigen::Vector3f aim_;  ///< where the axes are expected to meet: the middle of the surface
-};
+/// One a region of the picture: their errors have little to do with each other.
+std::vector<NearLampEquations> near_lamp_equations(const std::vector<LampRegion>& regions,
+                                                   const NearLampUnknowns& at);
 
 }  // namespace rakelight

@@ -3,87 +3,128 @@
 #include "refine/steps/near_lamp_search.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <opencv2/core/utility.hpp>
 
-#include "refine/steps/near_lamp_incidence.h"
+#include "refine/steps/near_lamp_places.h"
+#include "refine/steps/near_lamp_prior.h"
 
 namespace rakelight {
 namespace {
 
-/// Calls body(direction, inverse distance) for lamps all over the camera's half of the space about the object, and far
-/// ones in the direction at hand.
-template <class Body>
-void for_each_position(const Eigen::Vector3f& at_hand, const Body& body) {
-  constexpr int kDirections = 150;  // about 12 degrees apart
-  const double turn = M_PI * (3 - std::sqrt(5.0));
-  for (int k = -1; k < kDirections; ++k) {
-    const double z = -(k + 0.5) / kDirections, r = std::sqrt(1 - z * z);
-    const Eigen::Vector3d direction(r * std::cos(turn * k), r * std::sin(turn * k), z);
-    for (const float inverse_distance : {0.0f, 0.5f, 1.0f, 1.4f, 1.8f, 2.3f, 2.8f})
-      body(k < 0 ? at_hand : Eigen::Vector3f(direction.cast<float>()), inverse_distance);
+/// Samples whose errors agree: those of the rough shape and albedo that the search has to do with reach far.
+constexpr float kSamplesThatAgree = 100;
+
+/// Some of the surface, evenly spread.
+std::vector<int> sample_of_pixels(int pixels) {
+  std::vector<int> sample;
+  for (int p = 0; p < pixels; p += std::max(1, pixels / 1000)) sample.push_back(p);
+  return sample;
+}
+
+/// One image at the sampled pixels, a row a pixel, a column a channel; zero where a sample cannot be used.
+struct SampledImage {
+  Eigen::ArrayX3f I, rho;
+
+  SampledImage(const Observations& images, const SurfaceState& state, int image,
+               const std::vector<int>& pixels)
+      : I(pixels.size(), 3), rho(pixels.size(), 3) {
+    for (size_t j = 0; j < pixels.size(); ++j) {
+      const Eigen::Array3f usable = images.usable_channels(image, pixels[j]);
+      const auto row = static_cast<Eigen::Index>(j);
+      I.row(row) = (usable * images.radiance_at(image, pixels[j]).array()).transpose();
+      rho.row(row) = (usable * state.albedo.col(pixels[j]).array()).transpose();
+    }
+  }
+};
+
+/// Strength and ambient light, neither below zero, that fit one channel best: A (s, phi) = b.
+Eigen::Vector2f fit_strength(const Eigen::Matrix2f& A, const Eigen::Vector2f& b) {
+  const Eigen::Vector2f s =
+      (A.cast<double>() + 1e-9 * Eigen::Matrix2d::Identity()).ldlt().solve(b.cast<double>()).cast<float>();
+  if (s[0] < 0) return {0, b[1] / std::max(1e-9f, A(1, 1))};
+  if (s[1] < 0) return {b[0] / std::max(1e-9f, A(0, 0)), 0};
+  return s;
+}
+
+/// A lamp tried at a place.
+struct Trial {
+  Lamp lamp;
+  float misfit = 0;     ///< mean |I - rho S|
+  float log_power = 0;  ///< of refine/steps/near_lamp_prior.h
+};
+
+void try_places(const PlaceTable& table, const SampledImage& image, const Lamp& lamp,
+                std::vector<Trial>& trials) {
+  const auto count = static_cast<Eigen::Index>(table.places.size());
+  const Eigen::MatrixX3f rho2 = image.rho.square(), rhoI = image.rho * image.I;
+  const Eigen::MatrixX3f v = table.value.transpose() * rho2, vI = table.value.transpose() * rhoI;
+  const Eigen::MatrixX3f vv = table.value.cwiseAbs2().transpose() * rho2;
+  const Eigen::RowVector3f one = rho2.colwise().sum(), I = rhoI.colwise().sum();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    Trial trial{lamp};
+    for (int c = 0; c < 3; ++c) {
+      Eigen::Matrix2f A;
+      A << vv(k, c), v(k, c), v(k, c), one[c];
+      const Eigen::Vector2f s = fit_strength(A, {vI(k, c), I[c]});
+      trial.misfit +=
+          (image.rho.col(c) * (s[0] * table.value.col(k).array() + s[1]) - image.I.col(c)).abs().mean();
+      trial.lamp.strength[c] = s[0];
+      trial.lamp.phi[c] = s[1];
+    }
+    trial.lamp.direction = table.places[static_cast<size_t>(k)].direction;
+    trial.lamp.inverse_distance = table.places[static_cast<size_t>(k)].inverse_distance;
+    trial.log_power = static_cast<float>(log_lamp_power(trial.lamp));
+    trials.push_back(trial);
   }
 }
 
-/// Fits strength and ambient light of a lamp at its place. @return sum |I - rho S| over some pixels
-double fit_strength(const Observations& images, const SurfaceState& state, int image, Lamp& lamp) {
-  const int stride = std::max(1, images.pixels / 1000);
-  std::vector<float> value;
-  for (int p = 0; p < images.pixels; p += stride)
-    value.push_back(incidence_of(lamp, kNoTangents, state.points.col(p) - state.scene.center,
-                                 state.normals.col(p), state.scene.lobe_exponent, false)
-                        .value);
-  double misfit = 0;
-  for (int c = 0; c < 3; ++c) {
-    const float* I = images.channel(image, c);
-    const unsigned char* usable = images.usable_in(image, c);
-    Eigen::Matrix2d A = 1e-9 * Eigen::Matrix2d::Identity();
-    Eigen::Vector2d b = Eigen::Vector2d::Zero();
-    const auto row = [&](size_t k, int p) -> Eigen::Vector2d {
-      return static_cast<double>(state.albedo(c, p)) * Eigen::Vector2d(static_cast<double>(value[k]), 1);
-    };
-    for (size_t k = 0; k < value.size(); ++k) {
-      const int p = stride * static_cast<int>(k);
-      if (!usable[p]) continue;
-      const Eigen::Vector2d h = row(k, p);
-      A += h * h.transpose();
-      b += static_cast<double>(I[p]) * h;
-    }
-    Eigen::Vector2d s = A.ldlt().solve(b);
-    if (s[0] < 0 || s[1] < 0)
-      s = s[0] < 0 ? Eigen::Vector2d(0, b[1] / A(1, 1)) : Eigen::Vector2d(b[0] / A(0, 0), 0);
-    for (size_t k = 0; k < value.size(); ++k) {
-      const int p = stride * static_cast<int>(k);
-      if (usable[p]) misfit += std::abs(s.dot(row(k, p)) - static_cast<double>(I[p]));
-    }
-    lamp.strength[c] = static_cast<float>(s[0]);
-    lamp.phi[c] = static_cast<float>(s[1]);
-  }
-  return misfit;
+/// The trial that image and the rig's usual log power (if known) make most likely: residuals of unknown scale, of which
+/// kSamplesThatAgree agree.
+const Trial& best_of(const std::vector<Trial>& trials, const float* usual_log_power, size_t samples) {
+  const auto score = [&](const Trial& trial) {
+    const float fit = static_cast<float>(samples) / kSamplesThatAgree * std::log(trial.misfit + 1e-9f);
+    if (!usual_log_power) return fit;
+    const float off = (trial.log_power - *usual_log_power) / static_cast<float>(kLogPowerDeviation);
+    return fit + 0.5f * off * off;
+  };
+  return *std::min_element(trials.begin(), trials.end(),
+                           [&](const Trial& a, const Trial& b) { return score(a) < score(b); });
+}
+
+float median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace
 
 std::vector<Lamp> search_near_lamps(const Observations& images, const SurfaceState& state) {
-  std::vector<Lamp> lamps = state.lamps;
+  const std::vector<int> pixels = sample_of_pixels(images.pixels);
+  const PlaceTable everywhere(places_everywhere(), state, pixels);
+  std::vector<std::vector<Trial>> trials(state.lamps.size());
   cv::parallel_for_(cv::Range(0, images.images), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
-      Lamp& lamp = lamps[static_cast<size_t>(i)];
+      const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
       if (!lamp.near) continue;
-      double least = std::numeric_limits<double>::infinity();
-      for_each_position(Eigen::Vector3f(lamp.direction),
-                        [&](const Eigen::Vector3f& direction, float inverse_distance) {
-                          Lamp candidate = lamp;
-                          candidate.direction = direction;
-                          candidate.inverse_distance = inverse_distance;
-                          const double misfit = fit_strength(images, state, i, candidate);
-                          if (misfit >= least) return;
-                          least = misfit;
-                          lamp = candidate;
-                        });
+      const SampledImage image(images, state, i, pixels);
+      std::vector<LampPlace> at_hand;
+      add_places(lamp.direction, at_hand);
+      try_places(PlaceTable(at_hand, state, pixels), image, lamp, trials[static_cast<size_t>(i)]);
+      try_places(everywhere, image, lamp, trials[static_cast<size_t>(i)]);
     }
   });
+  const size_t samples = 3 * pixels.size();
+  std::vector<float> log_powers;
+  for (const auto& of_lamp : trials)
+    if (!of_lamp.empty()) log_powers.push_back(best_of(of_lamp, nullptr, samples).log_power);
+  if (log_powers.empty()) return state.lamps;
+  const float usual = median(log_powers);
+  std::vector<Lamp> lamps = state.lamps;
+  for (size_t i = 0; i < lamps.size(); ++i)
+    if (!trials[i].empty()) lamps[i] = best_of(trials[i], &usual, samples).lamp;
   return lamps;
 }
 

@@ -28,7 +28,8 @@ NearLampUnknowns NearLampUnknowns::moved(const Eigen::VectorXd& step, float max_
     lamp.inverse_distance = std::min(kappa / seen.norm(), max_inverse_distance);
   }
   result.scene.center += aim;
-  result.shape += step.tail<kShape>();
+  result.shape += step.segment<kShape>(shape_at());
+  result.gloss = (gloss + step.segment<kGloss>(gloss_at())).cwiseMax(0.0);
   return result;
 }
 

@@ -74,7 +74,7 @@ double measure_sensor_noise(const PixelGrid& grid, const SurfaceState& state, co
   const Eigen::VectorXd miss = prior.cell_target - cell_means(prior.cells, state.zeta);
   for (Eigen::Index cell = 0; cell < miss.size(); ++cell) {
     if (prior.cell_weight[cell] == 0) continue;
-    const int first = prior.cells.pixels_of[static_cast<size_t>(cell)].front();
+    const int first = *prior.cells.of(static_cast<int>(cell)).begin();
     const cv::Point at = grid.pixels[static_cast<size_t>(first)];
     WeightedSum& sum = sums[static_cast<size_t>((at.y / size) * columns + at.x / size)];
     sum.value += miss[cell];

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/steps/normals.h"
 
-#include <algorithm>
-
-#include "refine/pixel_blocks.h"
+#include "refine/grid_rows.h"
 
 namespace rakelight {
 namespace {
@@ -20,36 +18,54 @@ int reachable(const PixelGrid& grid, int p, Neighbor direction, const std::vecto
   return cuts[static_cast<size_t>(first)] ? -1 : q;
 }
 
-/// Up to `most` corners whose two neighbours exist. @return how many
-template <class NeighborAt>
-int find_corners(int most, const NeighborAt& neighbor_at, std::array<Corner, 4>& corners) {
-  int used = 0;
-  for (const auto& [y_direction, y_sign] : {std::pair(kDown, 1.0f), std::pair(kUp, -1.0f)}) {
-    for (const auto& [x_direction, x_sign] : {std::pair(kRight, 1.0f), std::pair(kLeft, -1.0f)}) {
-      const Corner corner{neighbor_at(x_direction), neighbor_at(y_direction), x_sign, y_sign};
-      if (corner.x_neighbor < 0 || corner.y_neighbor < 0 || used == most) continue;
-      corners[static_cast<size_t>(used++)] = corner;
-    }
+constexpr Neighbor x_direction(int k) { return k % 2 == 0 ? kRight : kLeft; }
+constexpr Neighbor y_direction(int k) { return k / 2 == 0 ? kDown : kUp; }
+
+/// Bits of the first `most` corners whose two neighbours exist.
+template <class Exists>
+unsigned char find_corners(int most, const Exists& exists) {
+  unsigned bits = 0;
+  for (int k = 0, used = 0; k < kCorners && used < most; ++k) {
+    if (!exists(x_direction(k)) || !exists(y_direction(k))) continue;
+    bits |= 1u << k;
+    ++used;
   }
-  return used;
+  return static_cast<unsigned char>(bits);
+}
+
+int count_bits(unsigned char bits) {
+  int count = 0;
+  for (int k = 0; k < kCorners; ++k) count += bits >> k & 1;
+  return count;
 }
 
 }  // namespace
 
+Corner corner_at(const PixelGrid& grid, int p, int k) {
+  const auto at = static_cast<size_t>(p);
+  return {grid.neighbor[x_direction(k)][at], grid.neighbor[y_direction(k)][at], k % 2 == 0 ? 1.0f : -1.0f,
+          k / 2 == 0 ? 1.0f : -1.0f};
+}
+
+int CornerList::first(int p) const {
+  for (int k = 0; k < kCorners; ++k)
+    if (has(p, k)) return k;
+  return -1;
+}
+
 CornerList make_corners(const PixelGrid& grid, Stencil stencil, const std::vector<unsigned char>& cut_right,
                         const std::vector<unsigned char>& cut_down) {
   CornerList list;
-  list.corners.resize(static_cast<size_t>(grid.size()));
-  list.weight.assign(static_cast<size_t>(grid.size()), 0.0f);
+  list.present.assign(static_cast<size_t>(grid.size() + kVectorPadding), 0);
+  list.weight.assign(static_cast<size_t>(grid.size() + kVectorPadding), 0.0f);
+  const int most = stencil == Stencil::forward ? 1 : kCorners;
   for (int p = 0; p < grid.size(); ++p) {
-    auto& corners = list.corners[static_cast<size_t>(p)];
-    const int most = stencil == Stencil::forward ? 1 : 4;
-    const int used = find_corners(most, [&](Neighbor n) { return reachable(grid, p, n, cut_right, cut_down); }, corners);
-    if (used > 0) {
-      list.weight[static_cast<size_t>(p)] = 1.0f / static_cast<float>(used);
-    } else {
-      find_corners(most, [&](Neighbor n) { return grid.neighbor[n][static_cast<size_t>(p)]; }, corners);
-    }
+    const auto at = static_cast<size_t>(p);
+    list.present[at] = find_corners(most, [&](Neighbor n) { return reachable(grid, p, n, cut_right, cut_down) >= 0; });
+    if (list.present[at] != 0)
+      list.weight[at] = 1.0f / static_cast<float>(count_bits(list.present[at]));
+    else
+      list.present[at] = find_corners(most, [&](Neighbor n) { return grid.neighbor[n][at] >= 0; });
   }
   return list;
 }
@@ -63,18 +79,9 @@ NormalFrame normal_frame(const PixelGrid& grid, int p) {
 
 Eigen::Matrix3Xf surface_normals(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& zeta) {
   Eigen::Matrix3Xf normals(3, grid.size());
-  for_each_block(grid.size(), [&](int begin, int end) {
-    for (int p = begin; p < end; ++p) {
-      Eigen::Vector2f gradient = Eigen::Vector2f::Zero();
-      float count = 0;
-      for (const Corner& corner : corners.corners[static_cast<size_t>(p)]) {
-        if (corner.x_neighbor < 0) break;
-        gradient += corner_gradient(corner, p, zeta);
-        ++count;
-      }
-      gradient /= std::max(1.0f, count);
-      normals.col(p) = normal_frame(grid, p).raw(gradient.x(), gradient.y()).normalized();
-    }
+  const ZetaImage image(grid, zeta);
+  for_each_run(grid, [&](int y, const PixelRun& run) {
+    kernels::mean_normals(image.run(corners, y, run), normals.data() + 3 * std::ptrdiff_t{run.first});
   });
   return normals;
 }

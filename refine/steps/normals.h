@@ -19,15 +19,26 @@ namespace rakelight {
 
 /// One way to take the two differences at a pixel: signs tell forward (+1) from backward (-1).
 struct Corner {
-  int x_neighbor = -1, y_neighbor = -1;
-  float x_sign = 1, y_sign = 1;
+  int x_neighbor, y_neighbor;
+  float x_sign, y_sign;
 };
 
-/// Corners of each pixel that lie in the mask and do not cross a cut; four slots a pixel, x_neighbor = -1 if unused.
-/// A pixel that has corners across cuts only keeps those, with weight 0: a rough normal, no say in the shape.
+/// The corners of a pixel: right-down, left-down, right-up, left-up.
+constexpr int kCorners = 4;
+
+/// Corner k of pixel p, whose neighbours are in the mask.
+Corner corner_at(const PixelGrid& grid, int p, int k);
+
+/// Corners of each pixel that lie in the mask and do not cross a cut. A pixel that has corners across cuts only keeps those,
+/// with weight 0: a rough normal, no say in the shape.
 struct CornerList {
-  std::vector<std::array<Corner, 4>> corners;
-  std::vector<float> weight;  ///< of each corner: 1 / number of corners of the pixel
+  std::vector<unsigned char> present;  ///< [pixel]: bit k for corner k; padded by kVectorPadding
+  std::vector<float> weight;           ///< [pixel]: of each corner, 1 / number of corners of the pixel; padded likewise
+
+  bool has(int p, int k) const { return (present[static_cast<size_t>(p)] >> k & 1) != 0; }
+
+  /// Number of the first corner, -1 without any.
+  int first(int p) const;
 };
 
 /// @param cut_right, cut_down  1 where the step to that neighbour crosses a depth jump; may be empty.

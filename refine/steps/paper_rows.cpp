@@ -30,22 +30,22 @@ std::vector<GradientRow> ratio_rows(const PixelGrid& grid, const Observations& i
   return rows;
 }
 
-Eigen::Matrix3Xf orthographic_normals(const CornerList& corners, const Eigen::VectorXd& z, double k) {
+Eigen::Matrix3Xf orthographic_normals(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& z, double k) {
   Eigen::Matrix3Xf normals(3, z.size());
   for (int p = 0; p < static_cast<int>(z.size()); ++p) {
-    const Eigen::Vector2d g = k * forward_gradient(corners, p, z);
+    const Eigen::Vector2d g = k * forward_gradient(grid, corners, p, z);
     normals.col(p) = Eigen::Vector3d(g.x(), g.y(), -1).normalized().cast<float>();
   }
   return normals;
 }
 
-std::vector<GradientRow> shading_rows(const CornerList& corners, const Lamp& lamp,
+std::vector<GradientRow> shading_rows(const PixelGrid& grid, const CornerList& corners, const Lamp& lamp,
                                       const Eigen::VectorXd& rho, const Eigen::VectorXd& I,
                                       const Eigen::VectorXd& z, double k) {
-  const Eigen::Matrix3Xf normals = orthographic_normals(corners, z, k);
+  const Eigen::Matrix3Xf normals = orthographic_normals(grid, corners, z, k);
   std::vector<GradientRow> rows;
   for (int p = 0; p < static_cast<int>(z.size()); ++p) {
-    const double d = std::sqrt(1 + (k * forward_gradient(corners, p, z)).squaredNorm());
+    const double d = std::sqrt(1 + (k * forward_gradient(grid, corners, p, z)).squaredNorm());
     const LocalLight light = light_at(lamp, Eigen::Vector3f::Zero(), normals.col(p), LampScene{});
     const Eigen::Vector3d l = light.l.row(0).transpose().cast<double>();
     const double phi = static_cast<double>(light.phi[0]);

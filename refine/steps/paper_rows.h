@@ -20,11 +20,11 @@ std::vector<GradientRow> ratio_rows(const PixelGrid& grid, const Observations& i
 
 /// Eq. (14), one row a pixel: rho (l . n + phi) = I with orthographic normals of slopes k grad z and their length as it is
 /// at z. @param lamp far; its first channel counts  @param k metric slope of one unit of z between neighbours
-std::vector<GradientRow> shading_rows(const CornerList& corners, const Lamp& lamp,
+std::vector<GradientRow> shading_rows(const PixelGrid& grid, const CornerList& corners, const Lamp& lamp,
                                       const Eigen::VectorXd& rho, const Eigen::VectorXd& I,
                                       const Eigen::VectorXd& z, double k);
 
 /// Eq. (4) with slopes k grad z.
-Eigen::Matrix3Xf orthographic_normals(const CornerList& corners, const Eigen::VectorXd& z, double k);
+Eigen::Matrix3Xf orthographic_normals(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& z, double k);
 
 }  // namespace rakelight

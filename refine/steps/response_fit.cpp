@@ -96,7 +96,7 @@ class ResponseFit {
   Eigen::Vector3d light_vector(std::size_t k, int c, int p) const {
     return lamp(k, c).vector_at(samples_.offset.col(p));
   }
-  double light(std::size_t index) const { return static_cast<double>(light_.radiance[index]); }
+  double light(std::size_t index) const { return static_cast<double>(light_[index]); }
 
   void fit_lamps(bool near) {
     for (std::size_t k = 0; k < images_.size(); ++k)
@@ -247,7 +247,7 @@ class ResponseFit {
   std::vector<int> images_;
   bool near_;
   Eigen::Matrix3d crosstalk_;
-  const Observations& light_;
+  const std::vector<float>& light_;
   const std::vector<double>& slope_;
   int pixels_;
   std::vector<double> weight_, squares_;
@@ -278,17 +278,18 @@ LightStack undecoded(const LightStack& stack) {
 /// @param usable of the decoded images: crosstalk spreads what one channel clips
 std::vector<unsigned char> samples_to_use(const Observations& raw, const std::vector<unsigned char>& usable,
                                           double shadow) {
+  const std::vector<float> value = raw.plain().radiance;
   std::vector<unsigned char> use(usable.size(), 0);
   const auto pixels = static_cast<std::size_t>(raw.pixels), images = static_cast<std::size_t>(raw.images);
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t p = 0; p < pixels; ++p) {
       float most = 0;
-      for (std::size_t i = 0; i < images; ++i) most = std::max(most, raw.radiance[(3 * i + c) * pixels + p]);
+      for (std::size_t i = 0; i < images; ++i) most = std::max(most, value[(3 * i + c) * pixels + p]);
       const float least = std::max(static_cast<float>(shadow) * most, static_cast<float>(kDarkest));
       int count = 0;
       for (std::size_t i = 0; i < images; ++i) {
         const std::size_t index = (3 * i + c) * pixels + p;
-        use[index] = usable[index] != 0 && raw.radiance[index] > least;
+        use[index] = usable[index] != 0 && value[index] > least;
         count += use[index];
       }
       for (std::size_t i = 0; count < kLeastSamples && i < images; ++i) use[(3 * i + c) * pixels + p] = 0;
@@ -320,7 +321,7 @@ ResponseSamples response_samples(const LightStack& stack, const RefineProblem& p
   }
   samples.offset.colwise() -= samples.offset.rowwise().mean().eval();
   samples.raw = observe(undecoded(stack), samples.grid);
-  samples.use = samples_to_use(samples.raw, observe(stack, samples.grid).usable, shadow);
+  samples.use = samples_to_use(samples.raw, observe(stack, samples.grid).plain().usable, shadow);
   return samples;
 }
 
@@ -328,9 +329,10 @@ DecodedSamples decode_samples(const LightStack& stack, const ResponseSamples& sa
                               const ColorResponse& response) {
   LightStack decoded = stack;
   decoded.color_response = response;
-  DecodedSamples result{observe(decoded, samples.grid), std::vector<double>(samples.raw.radiance.size())};
-  std::transform(samples.raw.radiance.begin(), samples.raw.radiance.end(), result.slope.begin(),
-                 [&](float value) { return slope_of(response, value); });
+  const std::vector<float> value = samples.raw.plain().radiance;
+  DecodedSamples result{observe(decoded, samples.grid).plain().radiance, std::vector<double>(value.size())};
+  std::transform(value.begin(), value.end(), result.slope.begin(),
+                 [&](float at) { return slope_of(response, at); });
   return result;
 }
 

@@ -34,8 +34,8 @@ ResponseSamples response_samples(const LightStack& stack, const RefineProblem& p
 
 /// The samples if colour values mean some response. Crosstalk and ambient light are undone after decoding.
 struct DecodedSamples {
-  Observations light;         ///< linear radiance
-  std::vector<double> slope;  ///< as Observations::radiance: d radiance / d value
+  std::vector<float> light;   ///< [image][channel][pixel] linear radiance
+  std::vector<double> slope;  ///< as light: d radiance / d value
 };
 DecodedSamples decode_samples(const LightStack& stack, const ResponseSamples& samples,
                               const ColorResponse& response);

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "refine/lamp_shading.h"
+#include "refine/kernels/image_kernels.h"
+#include "refine/tiles.h"
 
 namespace rakelight {
 namespace {
@@ -14,25 +15,30 @@ Eigen::Vector3f residual(const Observations& images, const SurfaceState& state, 
   const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), n, state.scene);
   const Eigen::Vector3f S = shading(light, n, state.attached_shadows);
   return state.albedo.col(p).cwiseProduct(S) -
-         Eigen::Vector3f(images.channel(i, 0)[p], images.channel(i, 1)[p], images.channel(i, 2)[p]);
+         images.radiance_at(i, p);
 }
 
-/// Median of |value(image, pixel)| over usable samples and channels of images [first, last).
+/// Median of |value(image, pixel)| over usable samples and channels of images [first, last), from a fixed choice of pixels.
 template <class Value>
 double median_of_samples(const Observations& images, int first, int last, const Value& value) {
-  constexpr int kSamplesAnImage = 6000;  // enough for a median good to a percent
-  const int step = std::max(1, images.pixels / kSamplesAnImage);
-  std::vector<float> sizes;
-  for (int i = first; i < last; ++i) {
-    for (int p = 0; p < images.pixels; p += step) {
-      const Eigen::Vector3f v = value(i, p);
-      for (int c = 0; c < 3; ++c)
-        if (images.usable_in(i, c)[p]) sizes.push_back(std::abs(v[c]));
+  constexpr int kSamples = 24000, kLeastAnImage = 1500;  // good to a percent
+  const int an_image = std::max(kLeastAnImage, kSamples / std::max(1, last - first));
+  const int step = std::max(1, images.pixels / an_image);
+  std::vector<std::vector<float>> sizes(static_cast<size_t>(last - first));
+  cv::parallel_for_(cv::Range(first, last), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      for (int p = i % step; p < images.pixels; p += step) {
+        const Eigen::Vector3f v = value(i, p);
+        for (int c = 0; c < 3; ++c)
+          if (images.usable(i, c, p)) sizes[static_cast<size_t>(i - first)].push_back(std::abs(v[c]));
+      }
     }
-  }
-  if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
+  });
+  std::vector<float> all;
+  for (const auto& of_image : sizes) all.insert(all.end(), of_image.begin(), of_image.end());
+  if (all.empty()) return 0;
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
   return static_cast<double>(*middle);
 }
 
@@ -49,46 +55,32 @@ double residual_scale_of_image(const Observations& images, const SurfaceState& s
 }
 
 double median_radiance(const Observations& images) {
-  return median_of_samples(images, 0, images.images, [&](int i, int p) {
-    return Eigen::Vector3f(images.channel(i, 0)[p], images.channel(i, 1)[p], images.channel(i, 2)[p]);
-  });
+  return median_of_samples(images, 0, images.images, [&](int i, int p) { return images.radiance_at(i, p); });
 }
 
 std::vector<float> cauchy_weights(const Observations& images, const SurfaceState& state, double scale) {
-  std::vector<float> weight(images.usable.size() / 3);
-  const float inverse = static_cast<float>(1.0 / (scale * scale));
-  for_each_block(images.pixels, [&](int begin, int end) {
-    const int count = end - begin;
-    ShadingBlock model;
-    std::array<float, kPixelBlock> squares, channels;
-    for (int i = 0; i < images.images; ++i) {
-      shade(state.lamps[static_cast<size_t>(i)], state, begin, end, model);
-      std::fill_n(squares.begin(), count, 0.0f);
-      std::fill_n(channels.begin(), count, 0.0f);
-      for (int c = 0; c < 3; ++c) {
-        const float* S = model.S[static_cast<size_t>(c)].data();
-        const float* I = images.channel(i, c) + begin;
-        const unsigned char* usable = images.usable_in(i, c) + begin;
-        for (size_t k = 0; k < static_cast<size_t>(count); ++k) {
-          const float r = state.albedo(c, begin + static_cast<int>(k)) * S[k] - I[k];
-          const float u = static_cast<float>(usable[k]);
-          squares[k] += u * r * r;
-          channels[k] += u;
-        }
-      }
-      float* w = weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels) + begin;
-      for (size_t k = 0; k < static_cast<size_t>(count); ++k)
-        w[k] = channels[k] > 0 ? channels[k] / (channels[k] + squares[k] * inverse) : 0.0f;
+  std::vector<float> weight(static_cast<size_t>(images.images) * static_cast<size_t>(images.pixels));
+  const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
+  for_each_tile(images, state, [&](Tile& tile) {
+    kernels::TileRow row;
+    for (size_t i = 0; i < lamps.size(); ++i) {
+      kernels::cauchy_weight(tile.surface(), lamps[i], tile.image(static_cast<int>(i)), static_cast<float>(scale), row);
+      std::copy_n(row.at, tile.count(),
+                  weight.data() + i * static_cast<size_t>(images.pixels) + static_cast<size_t>(tile.begin()));
     }
   });
   return weight;
 }
 
 std::vector<float> usable_weights(const Observations& images) {
-  std::vector<float> weight;
-  weight.reserve(images.usable.size() / 3);
-  for (int i = 0; i < images.images; ++i)
-    for (int p = 0; p < images.pixels; ++p) weight.push_back(images.usable_channels(i, p).maxCoeff());
+  std::vector<float> weight(static_cast<size_t>(images.images) * static_cast<size_t>(images.pixels));
+  for_each_block(images.pixels, [&](int begin, int end) {
+    for (int i = 0; i < images.images; ++i) {
+      float* of_image = weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
+      for (int p = begin; p < end; ++p)
+        of_image[p] = images.usable(i, 0, p) || images.usable(i, 1, p) || images.usable(i, 2, p) ? 1.0f : 0.0f;
+    }
+  });
   return weight;
 }
 

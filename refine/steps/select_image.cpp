@@ -11,25 +11,9 @@
 namespace rakelight {
 namespace {
 
-Observations only(const Observations& images, int i) {
-  const auto at = static_cast<std::ptrdiff_t>(i), pixels = static_cast<std::ptrdiff_t>(images.pixels);
-  const size_t k = static_cast<size_t>(i);
-  Observations one;
-  one.pixels = images.pixels;
-  one.images = 1;
-  one.radiance.assign(images.radiance.begin() + 3 * pixels * at,
-                      images.radiance.begin() + 3 * pixels * (at + 1));
-  one.usable.assign(images.usable.begin() + 3 * pixels * at, images.usable.begin() + 3 * pixels * (at + 1));
-  one.light_ids = {images.light_ids[k]};
-  one.frame_index = {images.frame_index[k]};
-  one.colored_lamps = {images.colored_lamps[k]};
-  one.lamp_positions = {images.lamp_positions[k]};
-  return one;
-}
-
 SelectedImage selected(const Observations& images, int i) {
   const size_t k = static_cast<size_t>(i);
-  return {only(images, i),
+  return {images.only(i),
           "frame " + std::to_string(images.frame_index[k]) + " (lamp " + images.light_ids[k] + ") was used"};
 }
 
@@ -58,13 +42,10 @@ std::optional<SelectedImage> composed(const LightStack& stack, const Observation
   const std::array lit{image_lit(stack, images, LampColor::red), image_lit(stack, images, LampColor::green),
                        image_lit(stack, images, LampColor::blue)};
   if (!lit[0] || !lit[1] || !lit[2]) return std::nullopt;
-  SelectedImage result{only(images, *lit[0]), "frames"};
+  SelectedImage result{images.only(*lit[0]), "frames"};
   for (int c = 0; c < 3; ++c) {
     const int i = *lit[static_cast<size_t>(c)];
-    std::copy_n(images.channel(i, c), images.pixels,
-                result.image.radiance.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
-    std::copy_n(images.usable_in(i, c), images.pixels,
-                result.image.usable.begin() + static_cast<std::ptrdiff_t>(c) * images.pixels);
+    result.image.copy_channel(images, i, 0, c);
     result.explanation += (c == 0 ? " " : ", ") + std::to_string(images.frame_index[static_cast<size_t>(i)]);
   }
   result.explanation += " (red, green and blue lamps) were put together";

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/steps/uncertainty.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "refine/pixel_blocks.h"
+#include "refine/steps/residual_draws.h"
 
 namespace rakelight {
 namespace {
@@ -21,6 +22,9 @@ constexpr float kSharedErrors = 8;
 constexpr double kPixelRelief = 0.35;
 
 constexpr int kWindow = 7;  // pixels; sixteen draws give 18 % of a deviation, neighbours together less
+
+/// Of each draw's solution: far below what sixteen draws leave open.
+constexpr double kTolerance = 1e-2;
 
 using Random = std::mt19937_64;
 
@@ -40,29 +44,37 @@ cv::Mat1f smooth_field(cv::Size size, double reach, Random& random) {
 class SensorDraws {
  public:
   SensorDraws(const DepthProblem& depth, int scale, const Eigen::VectorXd& zeta)
-      : positions_(cell_positions(depth.grid, depth.prior.cells, scale)),
+      : cells_(depth.prior.cells),
+        positions_(cell_positions(depth.grid, cells_, scale)),
         size_((depth.grid.index.cols + scale - 1) / scale, (depth.grid.index.rows + scale - 1) / scale),
-        miss_(depth.prior.cell_target - cell_means(depth.prior.cells, zeta)) {}
+        pull_(depth.prior.cell_weight.cwiseProduct(depth.prior.cell_target - cell_means(cells_, zeta))) {
+    for (Eigen::Index cell = 0; cell < pull_.size(); ++cell)
+      pull_[cell] /= static_cast<double>(cells_.of(static_cast<int>(cell)).size());
+  }
 
-  Eigen::VectorXd change_of_target(Random& random) const {
+  Eigen::VectorXd change_of_right_hand_side(Random& random) const {
     const cv::Mat1f field = smooth_field(size_, kSensorReach, random);
-    Eigen::VectorXd change = miss_;
-    for (Eigen::Index cell = 0; cell < change.size(); ++cell)
-      change[cell] *= static_cast<double>(field(positions_[static_cast<size_t>(cell)]));
+    Eigen::VectorXd change(static_cast<Eigen::Index>(cells_.cell_of.size()));
+    for (Eigen::Index p = 0; p < change.size(); ++p) {
+      const int cell = cells_.cell_of[static_cast<size_t>(p)];
+      change[p] = pull_[cell] * static_cast<double>(field(positions_[static_cast<size_t>(cell)]));
+    }
     return change;
   }
 
  private:
+  const DepthCells& cells_;
   std::vector<cv::Point> positions_;
   cv::Size size_;
-  Eigen::VectorXd miss_;
+  Eigen::VectorXd pull_;  ///< [cell] weight * (reading - refined depth) / pixels of the cell
 };
 
-std::vector<float> factors_of_images(int images, Random& random) {
+DrawFactors factors_of_images(int images, Random& random) {
   std::normal_distribution<float> gaussian(0, kSharedErrors);
-  std::vector<float> factor(static_cast<size_t>(images));
-  for (float& f : factor) f = gaussian(random);
-  return factor;
+  DrawFactors factors(images, kDrawsAtATime);
+  for (int k = 0; k < kDrawsAtATime; ++k)
+    for (int i = 0; i < images; ++i) factors(i, k) = gaussian(random);
+  return factors;
 }
 
 /// Mean over a window of the pixels inside the grid.
@@ -91,75 +103,28 @@ Eigen::VectorXd change_between_neighbors(const PixelGrid& grid, const Eigen::Mat
   return change;
 }
 
-/// What images and albedo add up to at one pixel.
-struct PixelSums {
-  Eigen::Vector3f q = Eigen::Vector3f::Zero();       ///< sum factor w rho l r, r = I - rho S
-  Eigen::Matrix3f by_rho = Eigen::Matrix3f::Zero();  ///< column c: sum w l (r - rho S), the change by rho_c
-  Eigen::Vector3f Sr = Eigen::Vector3f::Zero();      ///< sum factor w S r
-  Eigen::Vector3f SS = Eigen::Vector3f::Zero();      ///< sum w S^2
-
-  Eigen::Vector3f h() const { return q + by_rho * Sr.cwiseQuotient(SS.cwiseMax(1e-8f)); }
-};
-
-void add_image(const Observations& images, const SurfaceState& state, int i, int p, float factor,
-               PixelSums& sums) {
-  const auto at = static_cast<size_t>(i) * static_cast<size_t>(images.pixels) + static_cast<size_t>(p);
-  const float w = state.weight[at];
-  if (w == 0.0f) return;
-  const Eigen::Vector3f n = state.normals.col(p), rho = state.albedo.col(p),
-                        usable = images.usable_channels(i, p);
-  const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), n, state.scene);
-  const Eigen::Vector3f lit = light.l * n, S = usable.cwiseProduct(shading(light, n, state.attached_shadows));
-  const Eigen::Vector3f r = usable.cwiseProduct(images.radiance_at(i, p)) - rho.cwiseProduct(S);
-  sums.SS += w * S.cwiseAbs2();
-  sums.Sr += factor * w * S.cwiseProduct(r);
-  for (int c = 0; c < 3; ++c) {
-    if (usable[c] == 0.0f || (state.attached_shadows && lit[c] <= 0.0f)) continue;
-    const Eigen::Vector3f l = w * light.l.row(c).transpose();
-    sums.by_rho.col(c) += (r[c] - rho[c] * S[c]) * l;
-    sums.q += factor * rho[c] * r[c] * l;
-  }
-}
-
 }  // namespace
 
-Eigen::Matrix3Xf h_of_scaled_residuals(const Observations& images, const SurfaceState& state,
-                                       const std::vector<float>& factor) {
-  Eigen::Matrix3Xf h(3, images.pixels);
-  for_each_block(images.pixels, [&](int begin, int end) {
-    std::vector<PixelSums> sums(static_cast<size_t>(end - begin));
-    for (int i = 0; i < images.images; ++i)
-      for (int p = begin; p < end; ++p)
-        add_image(images, state, i, p, factor[static_cast<size_t>(i)], sums[static_cast<size_t>(p - begin)]);
-    for (int p = begin; p < end; ++p) h.col(p) = sums[static_cast<size_t>(p - begin)].h();
-  });
-  return h;
-}
-
 Uncertainty estimate_uncertainty(const DepthProblem& depth, int scale, const Observations& images,
-                                 const SurfaceState& state, DepthSolver& solver, int draws) {
+                                 const SurfaceState& state, int draws) {
   if (draws == 0) return {};
-  constexpr auto kGaussNewton = Linearization::gauss_newton;
   Random random(1);
   const SensorDraws sensor(depth, scale, state.zeta);
-  const DepthSystem system = depth_system(depth, state.zeta, kGaussNewton);
-  std::vector<PhotometricTensor> tensors = depth.tensors;
-  DepthPrior prior = depth.prior;
+  const auto solver = make_multigrid_depth_solver(depth.grid, depth.prior.cells, kTolerance);
   Eigen::VectorXd zeta_square = Eigen::VectorXd::Zero(depth.grid.size()), normal_square = zeta_square;
   Eigen::VectorXd change = zeta_square;
-  if (!solver.solve(system, change)) return {};
+  if (!solver->solve(depth_system(depth, state.zeta, Linearization::gauss_newton), change)) return {};
 
-  for (int k = 0; k < draws; ++k) {
-    prior.cell_target = depth.prior.cell_target + sensor.change_of_target(random);
-    const Eigen::Matrix3Xf h = h_of_scaled_residuals(images, state, factors_of_images(images.images, random));
-    for (size_t p = 0; p < tensors.size(); ++p)
-      tensors[p].h = depth.tensors[p].h + h.col(static_cast<Eigen::Index>(p));
-    const DepthProblem drawn{depth.grid, depth.corners, tensors, depth.corner_weight, prior};
-    const Eigen::VectorXd rhs = depth_system(drawn, state.zeta, kGaussNewton).rhs - system.rhs;
-    if (!solver.solve_again(rhs, change)) return {};
-    zeta_square += change.cwiseAbs2() / draws;
-    const Eigen::Matrix3Xf moved = surface_normals(depth.grid, depth.corners, state.zeta + change);
-    normal_square += (moved - state.normals).colwise().squaredNorm().transpose().cast<double>() / draws;
+  for (int first = 0; first < draws; first += kDrawsAtATime) {
+    const DrawFactors factors = factors_of_images(images.images, random);
+    const Eigen::MatrixXd rhs =
+        right_hand_sides(depth, state.zeta, pulls_of_scaled_residuals(images, state, factors));
+    for (int k = 0; k < std::min(kDrawsAtATime, draws - first); ++k) {
+      if (!solver->solve_again(rhs.col(k) + sensor.change_of_right_hand_side(random), change)) return {};
+      zeta_square += change.cwiseAbs2() / draws;
+      const Eigen::Matrix3Xf moved = surface_normals(depth.grid, depth.corners, state.zeta + change);
+      normal_square += (moved - state.normals).colwise().squaredNorm().transpose().cast<double>() / draws;
+    }
   }
   normal_square += kPixelRelief * kPixelRelief * change_between_neighbors(depth.grid, state.normals);
   return {(smoothed(depth.grid, zeta_square).array().sqrt() * state.zeta.array().exp()).matrix(),

@@ -16,7 +16,6 @@
 #pragma once
 
 #include "refine/observations.h"
-#include "refine/solver/depth_solver.h"
 #include "refine/steps/depth_step.h"
 #include "refine/surface_state.h"
 
@@ -32,12 +31,6 @@ struct Uncertainty {
 /// @param images, state what the problem's tensors were made of  @param draws of the bootstrap; 0: an empty result
 /// The draws are the same at every call: the result is reproducible.
 Uncertainty estimate_uncertainty(const DepthProblem& depth, int scale, const Observations& images,
-                                 const SurfaceState& state, DepthSolver& solver, int draws);
-
-/// Change of h - G n (PhotometricTensor) a unit of t when image i becomes I + t factor_i r, r = I - rho S, the albedo
-/// following: sum_i factor_i w rho l r + sum_i w l (r - rho S) drho, drho = sum_i factor_i w S r / sum_i w S^2.
-/// @param factor one an image  @return 3 x pixels
-Eigen::Matrix3Xf h_of_scaled_residuals(const Observations& images, const SurfaceState& state,
-                                       const std::vector<float>& factor);
+                                 const SurfaceState& state, int draws);
 
 }  // namespace rakelight

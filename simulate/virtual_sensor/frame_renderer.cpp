@@ -32,10 +32,44 @@ std::vector<std::uint8_t> encoding_table(const ColorResponse& response) {
   return table;
 }
 
+/// A row of numbers, three a pixel. The loops over rows have neither branches nor calls, so that compilers vectorise them.
+using Row = std::vector<float>;
+
 /// sum += weight * row
-void add_row(const cv::Mat3f& image, int row, float weight, std::vector<float>& sum) {
+void add_row(const cv::Mat3f& image, int row, float weight, Row& sum) {
   const auto* source = image.ptr<float>(row);
   for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * source[k];
+}
+
+/// Variance of a linear value v: read + shot * v.
+struct NoiseLevel {
+  float read = 0, shot = 0;
+};
+
+/// Amplification acts on both kinds of noise: var = (g read)^2 + shot^2 g v of the amplified value v.
+NoiseLevel noise_level(const ImageOptions& options, double gain) {
+  return {static_cast<float>(options.read_noise * options.read_noise * gain * gain),
+          static_cast<float>(options.shot_noise * options.shot_noise * gain)};
+}
+
+/// step = clip(balance (value + noise)) as a step of the encoding table
+void develop_row(const NoiseLevel& level, const float* noise, const Row& balance, const Row& value,
+                 std::vector<std::int32_t>& step) {
+  constexpr auto kTop = static_cast<float>(kEncodingSteps - 1);
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    const float noisy = balance[k] * (value[k] + std::sqrt(level.read + level.shot * value[k]) * noise[k]);
+    const float lit = noisy > 0 ? noisy : 0;
+    // Never negative, and lround would keep the loop from being vectorised.
+    step[k] =
+        static_cast<std::int32_t>((lit < 1 ? lit : 1) * kTop + 0.5f);  // NOLINT(bugprone-incorrect-roundings)
+  }
+}
+
+/// Factors of R, G and B for each pixel of a row.
+Row balance_row(const cv::Vec3f& factors, int pixels) {
+  Row row;
+  for (int k = 0; k < pixels; ++k) row.insert(row.end(), factors.val, factors.val + 3);
+  return row;
 }
 
 }  // namespace
@@ -44,7 +78,7 @@ FrameRenderer::FrameRenderer(LampImages images, const ImageOptions& options, std
     : images_(std::move(images)),
       options_(options),
       seed_(seed),
-      noise_(noise_table(seed, static_cast<std::size_t>(3 * images_.ambient.cols))),
+      noise_(noise_table(seed, 3 * static_cast<std::size_t>(images_.ambient.cols))),
       encoded_(encoding_table(options.response)) {}
 
 /// The sum of a row's light sources, linear, full scale 1.
@@ -61,24 +95,18 @@ void FrameRenderer::mix_row(const std::vector<LampRows>& light, const Exposure& 
 
 void FrameRenderer::render(const std::vector<LampRows>& light, const Exposure& exposure, int frame,
                            cv::Mat3b& image) const {
-  // Amplification acts on both kinds of noise: var = (g read)^2 + shot^2 g v of the amplified value v.
-  const auto gain = static_cast<float>(exposure.gain / kReferenceGain);
-  const auto read = static_cast<float>(options_.read_noise * options_.read_noise) * gain * gain;
-  const auto shot = static_cast<float>(options_.shot_noise * options_.shot_noise) * gain;
-  constexpr auto kTop = static_cast<float>(kEncodingSteps - 1);
-  const cv::Vec3f& balance = exposure.white_balance;
+  const NoiseLevel level = noise_level(options_, exposure.gain / kReferenceGain);
+  const Row balance = balance_row(exposure.white_balance, size().width);
   const CounterRandom places(seed_, kNoisePlaces + static_cast<std::uint64_t>(frame));
-  std::vector<float> sum(static_cast<std::size_t>(3 * size().width));
+  Row value(balance.size());
+  std::vector<std::int32_t> step(balance.size());
   image.create(size());
   for (int row = 0; row < image.rows; ++row) {
-    mix_row(light, exposure, row, sum);
+    mix_row(light, exposure, row, value);
     const float* noise = noise_.data() + places.bits(static_cast<std::uint64_t>(row)) % kNoiseNumbers;
+    develop_row(level, noise, balance, value, step);
     auto* out = image.ptr<std::uint8_t>(row);
-    for (std::size_t k = 0; k < sum.size(); ++k) {
-      const float value = balance.val[k % 3] * (sum[k] + std::sqrt(read + shot * sum[k]) * noise[k]);
-      const float clipped = std::min(std::max(value, 0.0f), 1.0f);
-      out[k] = encoded_[static_cast<std::size_t>(clipped * kTop + 0.5f)];
-    }
+    for (std::size_t k = 0; k < step.size(); ++k) out[k] = encoded_[static_cast<std::size_t>(step[k])];
   }
 }
 

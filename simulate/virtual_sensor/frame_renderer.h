@@ -29,6 +29,7 @@ class FrameRenderer {
               cv::Mat3b& image) const;
 
   cv::Size size() const { return images_.ambient.size(); }
+  const LampImages& images() const { return images_; }
 
  private:
   void mix_row(const std::vector<LampRows>& light, const Exposure& exposure, int row,

@@ -56,6 +56,13 @@ void LampTimeline::write(double at_us, const std::vector<bool>& lines) {
   lines_ = lines;
 }
 
+bool LampTimeline::lit_at(std::size_t lamp, double at_us) const {
+  if (stuck_on_[lamp] != 0) return true;
+  const std::vector<double>& edges = edges_[lamp];
+  const auto passed = std::upper_bound(edges.begin(), edges.end(), at_us) - edges.begin();
+  return brightness_[lamp] > 0 && passed % 2 == 1;
+}
+
 double LampTimeline::lit_us(std::size_t lamp, double from_us, double to_us) const {
   const auto brightness = static_cast<double>(brightness_[lamp]);
   if (stuck_on_[lamp] != 0) return brightness * (to_us - from_us);

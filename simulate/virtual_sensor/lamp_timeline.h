@@ -35,6 +35,9 @@ class LampTimeline {
   /// Time for which a lamp was lit within [from, to), weighted by its brightness, microseconds.
   double lit_us(std::size_t lamp, double from_us, double to_us) const;
 
+  /// Whether a lamp gives light at that time.
+  bool lit_at(std::size_t lamp, double at_us) const;
+
   std::size_t size() const { return edges_.size(); }
 
  private:

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the virtual sensor looks at, rendered once: an image of each lamp's light alone, and depth frames.
+// What the virtual sensor looks at, rendered once: an image of each lamp's light alone, and the depth.
 #pragma once
 
 #include <memory>
 
+#include "simulate/depth_sensor.h"
 #include "simulate/virtual_sensor/setup.h"
 
 namespace rakelight {
@@ -14,6 +15,7 @@ namespace rakelight {
 struct LampImages {
   cv::Mat3f ambient;
   std::vector<cv::Mat3f> lamps;  ///< runs parallel to VirtualSensorSetup::lamps
+  cv::Mat3f albedo;              ///< of the paint, mean over a pixel; NaN where there is none
 };
 
 constexpr double kReferenceExposureUs = 8000;  ///< one lamp alone then lets about 0.2 % of the object clip
@@ -28,10 +30,10 @@ class VirtualScene {
   VirtualScene& operator=(const VirtualScene&) = delete;
 
   LampImages render_color(cv::Size size) const;
-  /// `count` frames of raw depth (0 = no reading), whose noise differs; depth and colour share one viewpoint.
-  std::vector<cv::Mat1w> sense_depth(cv::Size size, int count) const;
-  /// What `rakelight evaluate` compares with. Lamps are those of the rig.
-  GroundTruth truth(cv::Size size) const;
+  /// Depth and colour share one viewpoint.
+  DepthSensor depth_sensor(cv::Size size) const;
+  /// What `rakelight evaluate` compares with, on the grid of the images. Lamps are those of the rig.
+  GroundTruth truth(const LampImages& images) const;
 
   const SimulateOptions& options() const;
 

@@ -11,6 +11,7 @@
 #include "stack/errors.h"
 #include "stack/image_file.h"
 #include "stack/importers/number_rows.h"
+#include "stack/parallel.h"
 
 namespace rakelight {
 namespace fs = std::filesystem;
@@ -92,19 +93,25 @@ cv::Mat1w requantised(const cv::Mat1w& raw, const Calibration& calibration) {
 }
 
 void add_color_frames(const fs::path& folder, LightStack& stack, std::map<int, Frame>& frames) {
-  ExpectedSize size;
-  for (const auto& [number, file] : numbered_images(folder, "RGB", "I_")) {
-    Frame& frame = frames[number];
-    frame.color = read_color_png(file, size);
-    frame.light = "I_" + std::to_string(number);
-    size = frame.color.size();
-    stack.lights.push_back({*frame.light, LampColor::white, {}, {}});
-  }
-  if (!size) {
+  const std::map<int, fs::path> files = numbered_images(folder, "RGB", "I_");
+  if (files.empty()) {
     throw InputError((folder / "RGB").string(), "has no image I_<number>.png", "put one image a lamp there");
   }
-  stack.color_camera.width = size->width;
-  stack.color_camera.height = size->height;
+  std::vector<std::pair<fs::path, Frame*>> jobs;
+  for (const auto& [number, file] : files) {
+    Frame& frame = frames[number];
+    frame.light = "I_" + std::to_string(number);
+    stack.lights.push_back({*frame.light, LampColor::white, {}, {}});
+    jobs.emplace_back(file, &frame);
+  }
+  jobs.front().second->color = read_color_png(jobs.front().first);
+  const cv::Size size = jobs.front().second->color.size();
+  in_parallel(static_cast<int>(jobs.size()) - 1, [&](int k) {
+    const auto& [file, frame] = jobs[static_cast<std::size_t>(k) + 1];
+    frame->color = read_color_png(file, size);
+  });
+  stack.color_camera.width = size.width;
+  stack.color_camera.height = size.height;
 }
 
 void add_depth_frames(const fs::path& folder, const Calibration& calibration, cv::Size size,
@@ -114,10 +121,13 @@ void add_depth_frames(const fs::path& folder, const Calibration& calibration, cv
     throw InputError((folder / "Depth").string(), "has no image z0_<number>.png",
                      "put the sensor's depth there");
   }
-  for (const auto& [number, file] : files) {
+  std::vector<std::pair<fs::path, Frame*>> jobs;
+  for (const auto& [number, file] : files) jobs.emplace_back(file, &frames[number]);
+  in_parallel(static_cast<int>(jobs.size()), [&](int k) {
+    const auto& [file, frame] = jobs[static_cast<std::size_t>(k)];
     const cv::Mat1w raw = read_depth_png(file, size);
-    frames[number].depth = calibration.min_mm == 0 ? raw : requantised(raw, calibration);
-  }
+    frame->depth = calibration.min_mm == 0 ? raw : requantised(raw, calibration);
+  });
 }
 
 ColorResponse read_response(const fs::path& file) {

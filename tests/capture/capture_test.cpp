@@ -104,6 +104,24 @@ TEST(Capture, TwelveLampsOnASlowBoardTakeThreeFramePeriodsEachAtThirtyMillisecon
   RecordProperty("sensor_time_ms", std::to_string(worst / 1000));
 }
 
+TEST(Capture, TheLagHoldsForALampThatTheBoardWritesAfterOthers) {
+  SimulatedRigOptions world;
+  world.exposure_us = 2000;  // little to spare between two lamps
+  world.line_us = 3000;
+  world.brightness = 0.6 * 8000 / world.exposure_us;
+  world.stuck_off = {"white-0", "white-1", "white-2", "white-3"};  // so that the lag is the fifth lamp's
+  ScanOptions options;
+  options.meter = false;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    world.seed = seed;
+    world.phase_us = 3333.0 * seed;
+    const Outcome outcome = scan(world, options);
+    EXPECT_EQ(outcome.frames, 13);
+    EXPECT_EQ(outcome.mislit, 0);
+    EXPECT_THAT(outcome.scan.warnings, testing::Not(testing::Contains(testing::HasSubstr("does not match"))));
+  }
+}
+
 /// Whatever rig: latencies of lamps and transport from 0 to 80 ms, jitter, one frame in twenty lost.
 SimulatedRigOptions any_world(unsigned seed) {
   std::mt19937 random(seed);

@@ -69,6 +69,24 @@ TEST(LampFaults, NamesALampThatIsStuckOn) {
             kTrials);
 }
 
+TEST(LampFaults, TellsALampThatIsStuckOnFromADeadOneBesideIt) {
+  int named = 0;
+  for (unsigned seed = 0; seed < kTrials; ++seed) {
+    SimulatedRigOptions world = world_of(seed);
+    const unsigned stuck = seed % 12, dead = (stuck + 2 + seed / 12 % 9) % 12;  // 60 degrees apart or more
+    world.stuck_on = {lamp_number(stuck)};
+    world.stuck_off = {lamp_number(dead)};
+    std::set<std::string> found;
+    for (const LampFault& fault : faults_of(world)) found.insert(to_string(fault.kind) + " " + fault.lamp);
+    const bool right =
+        found == std::set<std::string>{"stuck-on " + lamp_number(stuck), "no-light " + lamp_number(dead)};
+    named += right ? 1 : 0;
+    EXPECT_TRUE(right) << "scan " << seed << ", stuck " << lamp_number(stuck) << ", dead "
+                       << lamp_number(dead) << ": " << testing::PrintToString(found);
+  }
+  EXPECT_EQ(named, kTrials);
+}
+
 TEST(LampFaults, NamesALampThatGivesNoLight) {
   EXPECT_EQ(times_named(Kind::no_light, [](auto& world, const auto& lamp) { world.stuck_off = {lamp}; }),
             kTrials);

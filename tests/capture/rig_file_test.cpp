@@ -56,6 +56,12 @@ TEST(RigFile, ReadsWhatItSaysAndLeavesTheRestAtItsDefault) {
   EXPECT_FALSE(rig.virtual_rig);
 }
 
+TEST(RigFile, VirtualLampsThatHangOnLinesNeedLines) {
+  const std::string virtual_rig = "[virtual_rig]\nlamps_on_lines = true\n";
+  EXPECT_TRUE(parse_rig(small_rig(virtual_rig), "desk.toml").virtual_rig->lamps_on_lines);
+  EXPECT_THAT(refusal(virtual_rig + "[[lamps]]\nid = \"left\"\n"), HasSubstr("'left' names none"));
+}
+
 TEST(RigFile, FindsLampsByLabelAndOffset) {
   const Rig rig = read_rig(kExamples / "cp2112.toml");
   EXPECT_EQ(rig.lamps[5].line.chip, "cp2112_gpio");

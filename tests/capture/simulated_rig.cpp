@@ -111,9 +111,11 @@ struct SimulatedRig::World {
     return line;
   }
 
-  void write(const std::vector<bool>& lit) {
+  /// @param all also writes the lines that stay as they are
+  void write(const std::vector<bool>& lit, bool all) {
     clock.sleep_until(clock.now_us() + rounded(options.board_us / 2));
     for (std::size_t line = 0; line < lit.size(); ++line) {
+      if (all || lit[line] != written[line]) clock.sleep_until(clock.now_us() + rounded(options.line_us));
       if (lit[line] == written[line]) continue;
       written[line] = lit[line];
       const double latency = options.lamp_latency_us + uniform(options.lamp_jitter_us);
@@ -276,12 +278,22 @@ class SimulatedSource : public FrameSource {
 
 class SimulatedBank : public LineBank {
  public:
-  explicit SimulatedBank(std::shared_ptr<SimulatedRig::World> world) : world_(std::move(world)) {}
+  explicit SimulatedBank(std::shared_ptr<SimulatedRig::World> world)
+      : world_(std::move(world)), written_(size(), false) {}
   std::size_t size() const override { return world_->rig.lamps.size(); }
-  void write(const std::vector<bool>& lit) override { world_->write(lit); }
+  void write(const std::vector<bool>& lit) override {
+    world_->write(lit, true);
+    written_ = lit;
+  }
+  void write_changes(const std::vector<bool>& lit) override {
+    world_->write(lit, false);
+    written_ = lit;
+  }
+  std::vector<bool> read() override { return written_; }
 
  private:
   std::shared_ptr<SimulatedRig::World> world_;
+  std::vector<bool> written_;
 };
 
 }  // namespace

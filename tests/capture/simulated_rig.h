@@ -29,6 +29,7 @@ struct SimulatedRigOptions {
   double delivery_latency_us = 15000, delivery_jitter_us = 2000;
   double drop_share = 0, repeat_share = 0;
   double board_us = 200;  ///< a write of the lamp board takes this long
+  double line_us = 0;     ///< and this much more a line, one after the other, as on USB
   double ambient = 0.02, brightness = 0.6, noise = 0.003;
   int unplug_at_frame = -1;
   int reset_clock_at_frame = -1;

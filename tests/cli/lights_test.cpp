@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/file_edits.h"
 #include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace rakelight::test {
 namespace {
@@ -39,8 +41,22 @@ TEST(Lights, RefusesToLightALampForLongerThanTheRigAllows) {
   expect_refusal(run({"lights", "test", "--each", "3", "--rig", rig("cp2112")}), 2, "at most 2 s");
 }
 
-TEST(Lights, SaysThatAVirtualRigHasNoLines) {
-  expect_refusal(run({"lights", "test", "--rig", rig("virtual")}), 2, "virtual");
+TEST(Lights, SaysThatNobodyWouldSeeAVirtualLampThatIsLitByHand) {
+  expect_refusal(run({"lights", "on", "white-00", "--rig", rig("virtual")}), 2, "'rakelight lights test'");
+  expect_refusal(run({"lights", "off", "--rig", rig("virtual")}), 2, "virtual");
+}
+
+TEST(Lights, TestsVirtualLampsAndNamesThoseThatDoNotFollow) {
+  const TemporaryFolder home;
+  set_text(home / "rig.toml",
+           "[sensor]\ncolor = { width = 64, height = 48 }\ndepth = { width = 64, height = 48 }\n"
+           "[virtual_rig]\nscene = \"plane\"\nstuck_off = [\"b\"]\n"
+           "[[lamps]]\nid = \"a\"\n[[lamps]]\nid = \"b\"\n[[lamps]]\nid = \"c\"\n");
+  const Ran ran = run({"lights", "test", "--each", "0.02", "--json", "--rig", home / "rig.toml"});
+  EXPECT_EQ(ran.exit_code, 4) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("does not read so under b;"));
+  const auto report = nlohmann::json::parse(ran.out);
+  for (const auto& lamp : report.at("tested")) EXPECT_EQ(lamp["as_written"], lamp["id"] != "b") << lamp;
 }
 
 TEST(Lights, ExitsWithADeviceErrorWithoutTheBoard) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "stack/atomic_folder.h"
@@ -25,6 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 /// A folder with the stack `scan` in it.
 class Refine : public testing::Test {
@@ -49,6 +51,20 @@ class Refine : public testing::Test {
 
   TemporaryFolder folder_;
 };
+
+TEST_F(Refine, WritesOnlyTheOutputsAskedFor) {
+  const Ran ran = refine({"--outputs", "depth,normals"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, Not(HasSubstr("mesh.ply")));
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(out())) names.insert(entry.path().filename());
+  EXPECT_EQ(names, (std::set<std::string>{"depth.tiff", "depth.png", "initial_depth.tiff", "normals.tiff", "normals.png",
+                                          "result.json"}));
+}
+
+TEST_F(Refine, RefusesAnOutputItDoesNotKnow) {
+  expect_refused(refine({"--outputs", "depth,sculpture"}), 2, "sculpture");
+}
 
 TEST_F(Refine, WritesAResultAndSaysWhere) {
   const Ran ran = refine();

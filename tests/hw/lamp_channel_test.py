@@ -37,7 +37,7 @@ class LampChannel(unittest.TestCase):
         self.assertLess(lit["p_r6_max"], 0.5)  # of the 1 W that R6 bears
 
     def test_the_current_does_not_depend_on_the_transistor(self):
-        worst, best = simulate(vth=1.45), simulate(vth=0.65)
+        worst, best = simulate(vth=1.5), simulate(vth=0.65)
         self.assertAlmostEqual(worst["i_lit"] / best["i_lit"], 1, delta=0.005)
 
     def test_the_lamp_follows_the_pin(self):

@@ -75,6 +75,15 @@ void FakeAdapter::unplug() {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
+void FakeAdapter::hold(int pin, bool high) {
+  const auto bit = static_cast<std::uint8_t>(1 << pin);
+  pins_->held |= bit;
+  if (high)
+    pins_->levels |= bit;
+  else
+    pins_->levels &= static_cast<std::uint8_t>(~bit);
+}
+
 std::vector<PinEvent> FakeAdapter::since(std::uint32_t count) const {
   std::vector<PinEvent> events;
   for (std::uint32_t k = count; k < pins_->count; ++k) events.push_back(pins_->events[k % Pins::kCapacity]);

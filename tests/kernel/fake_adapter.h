@@ -25,6 +25,8 @@ class FakeAdapter {
   FakeAdapter& operator=(const FakeAdapter&) = delete;
 
   void unplug();
+  /// From now on the pin is at this level, whatever is written to it: stuck.
+  void hold(int pin, bool high);
 
   /// "gpiochip0", or another number: the kernel does not use one again whose lines were held when it went.
   const std::string& chip() const { return chip_; }

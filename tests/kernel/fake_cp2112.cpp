@@ -44,7 +44,8 @@ Pins* map_pins(const char* file) {
 }
 
 void set_pins(Pins& pins, std::uint8_t levels, std::uint8_t mask) {
-  pins.levels = static_cast<std::uint8_t>((pins.levels & ~mask) | (levels & mask));
+  const int free = mask & ~pins.held;
+  pins.levels = static_cast<std::uint8_t>((pins.levels & ~free) | (levels & free));
   for (std::uint8_t offset = 0; offset < 8; ++offset) {
     if (((mask >> offset) & 1) == 0) continue;
     pins.events[pins.count % Pins::kCapacity] = {now_us(), offset,

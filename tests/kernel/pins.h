@@ -20,6 +20,7 @@ struct Pins {
   static constexpr std::size_t kCapacity = 1 << 16;
   std::atomic<std::uint8_t>
       levels;  ///< bit k: pin k is high; nothing but a write through the kernel changes it
+  std::atomic<std::uint8_t> held;     ///< bit k: pin k stays as it is, whatever is written to it
   std::atomic<std::uint8_t> outputs;  ///< bit k: pin k is an output
   std::atomic<std::uint32_t> count;   ///< events so far
   PinEvent events[kCapacity];         ///< every write, also one that changes nothing; a ring

@@ -61,6 +61,7 @@ class SharedBank : public LineBank {
     lamps_.level = lit[0] ? 1 : 0;
     if (!lit[0]) ++lamps_.dark_writes;
   }
+  std::vector<bool> read() override { return {lamps_.level != 0}; }
 
  private:
   Lamps& lamps_;

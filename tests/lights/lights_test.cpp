@@ -44,10 +44,18 @@ class LoggingBank : public LineBank {
       --failures;
       throw std::system_error(std::make_error_code(std::errc::io_error), "cannot write");
     }
+    levels_ = lit;
+  }
+  /// The last line is stuck off.
+  std::vector<bool> read() override {
+    std::vector<bool> levels = levels_;
+    levels.back() = false;
+    return levels;
   }
 
  private:
   std::size_t size_;
+  std::vector<bool> levels_;
   Log& log_;
 };
 
@@ -60,6 +68,14 @@ template <class Condition>
 bool comes_true(Condition condition) {
   for (int i = 0; i < 1000 && !condition(); ++i) std::this_thread::sleep_for(10ms);
   return condition();
+}
+
+TEST(Lights, ReadBackWhichLinesAreLitWhateverWasWritten) {
+  Log log;
+  Lights lights(kIds, bank(log));
+  EXPECT_THAT(lights.lit(), ElementsAre());
+  lights.show({"red", "blue"});
+  EXPECT_THAT(lights.lit(), ElementsAre("red"));
 }
 
 TEST(Lights, AreOffFromTheStart) {
@@ -89,6 +105,15 @@ TEST(Lights, ShowNothingForAnEmptyList) {
   lights.show({"red"});
   lights.show({});
   EXPECT_EQ(log.seen().back(), "000");
+}
+
+TEST(Lights, AreNotTakenForLitAfterNothingWasShown) {
+  Log log;
+  Lights lights(kIds, bank(log), {50ms});
+  lights.show({"red"});
+  lights.show({});
+  std::this_thread::sleep_for(150ms);
+  EXPECT_FALSE(lights.watchdog_tripped());
 }
 
 TEST(Lights, AreOffAfterDestruction) {

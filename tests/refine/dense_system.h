@@ -12,12 +12,10 @@ namespace rakelight::test {
 
 /// K: the mean over each cell, cells x pixels.
 inline Eigen::MatrixXd dense_means(const DepthCells& cells) {
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(cells.pixels_of.size()),
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(cells.size(),
                                             static_cast<Eigen::Index>(cells.cell_of.size()));
-  for (Eigen::Index cell = 0; cell < K.rows(); ++cell) {
-    const auto& pixels = cells.pixels_of[static_cast<size_t>(cell)];
-    for (const int p : pixels) K(cell, p) = 1.0 / static_cast<double>(pixels.size());
-  }
+  for (int cell = 0; cell < cells.size(); ++cell)
+    for (const int p : cells.of(cell)) K(cell, p) = 1.0 / static_cast<double>(cells.of(cell).size());
   return K;
 }
 
@@ -25,7 +23,8 @@ inline Eigen::MatrixXd dense_means(const DepthCells& cells) {
 inline Eigen::MatrixXd dense_matrix(const PixelGrid& grid, const DepthCells& cells, const DepthSystem& system) {
   const Eigen::MatrixXd K = dense_means(cells);
   Eigen::MatrixXd A = K.transpose() * system.cell_weight.asDiagonal() * K;
-  const auto add = [&](int p, int u, int v, double value) {
+  const auto add = [&](int p, int u, int v, float entry) {
+    const auto value = static_cast<double>(entry);
     if (u < 0 || v < 0 || u >= grid.index.cols || v >= grid.index.rows || grid.index(v, u) < 0) return;
     A(p, grid.index(v, u)) += value;
     A(grid.index(v, u), p) += value;
@@ -33,7 +32,7 @@ inline Eigen::MatrixXd dense_matrix(const PixelGrid& grid, const DepthCells& cel
   for (int p = 0; p < grid.size(); ++p) {
     const size_t i = static_cast<size_t>(p);
     const cv::Point at = grid.pixels[i];
-    A(p, p) += system.diagonal[i];
+    A(p, p) += static_cast<double>(system.diagonal[i]);
     add(p, at.x + 1, at.y, system.right[i]);
     add(p, at.x, at.y + 1, system.down[i]);
     add(p, at.x + 1, at.y + 1, system.down_right[i]);

@@ -4,6 +4,7 @@
 // Surfaces whose depth, normals and points are known in closed form, and the images that a lamp model makes of them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "refine/observations.h"
@@ -99,7 +100,7 @@ inline SurfaceState exact_state(const ExactSurface& surface, const Eigen::Matrix
   return state;
 }
 
-/// Index of a sample in radiance and usable.
+/// Index of a sample in PlainSamples.
 inline size_t sample_index(const Observations& images, int image, int channel, int pixel) {
   return (static_cast<size_t>(image) * 3 + static_cast<size_t>(channel)) * static_cast<size_t>(images.pixels) +
          static_cast<size_t>(pixel);
@@ -107,24 +108,31 @@ inline size_t sample_index(const Observations& images, int image, int channel, i
 
 /// The images that the state's own model predicts: residual 0 everywhere.
 inline Observations images_of(const SurfaceState& state) {
-  Observations images;
-  images.pixels = static_cast<int>(state.zeta.size());
-  images.images = static_cast<int>(state.lamps.size());
-  images.radiance.resize(state.lamps.size() * 3 * static_cast<size_t>(images.pixels));
-  images.usable.assign(images.radiance.size(), 1);
+  Observations images(static_cast<int>(state.zeta.size()), static_cast<int>(state.lamps.size()));
+  PlainSamples samples = images.plain();
+  std::fill(samples.usable.begin(), samples.usable.end(), static_cast<unsigned char>(1));
   for (int i = 0; i < images.images; ++i) {
     for (int p = 0; p < images.pixels; ++p) {
       const Eigen::Vector3f n = state.normals.col(p);
       const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), n, state.scene);
       const Eigen::Vector3f S = shading(light, n, state.attached_shadows);
-      for (int c = 0; c < 3; ++c) images.radiance[sample_index(images, i, c, p)] = state.albedo(c, p) * S[c];
+      for (int c = 0; c < 3; ++c) samples.radiance[sample_index(images, i, c, p)] = state.albedo(c, p) * S[c];
     }
     images.light_ids.push_back("lamp-" + std::to_string(i));
     images.frame_index.push_back(i);
     images.colored_lamps.push_back(false);
     images.lamp_positions.emplace_back();
   }
+  images.set(samples);
   return images;
+}
+
+/// Changes the images' samples as numbers.
+template <class Change>
+void change_samples(Observations& images, const Change& change) {
+  PlainSamples samples = images.plain();
+  change(samples);
+  images.set(samples);
 }
 
 }  // namespace rakelight::test

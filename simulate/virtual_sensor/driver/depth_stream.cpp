@@ -10,6 +10,7 @@ namespace rakelight {
 namespace {
 
 constexpr double kUnit_m = 1e-4;
+constexpr std::size_t kFrames = 12;  // made when they are first due, then delivered in turn
 
 }  // namespace
 
@@ -43,13 +44,20 @@ DepthStream::DepthStream(std::shared_ptr<VirtualRigState> rig)
     : TimedStream(ONI_SENSOR_DEPTH, depth_modes(rig->setup().depth_size),
                   field_of_view(structured_light_camera(rig->setup().depth_size)), rig) {}
 
-void DepthStream::prepare() { frames_ = rig().depth(size()); }
+void DepthStream::prepare() {
+  std::shared_ptr<const DepthSensor> sensor = rig().depth(size());
+  if (sensor == sensor_) return;
+  sensor_ = std::move(sensor);
+  frames_.assign(kFrames, {});
+}
 
 /// An infrared camera with a global shutter, read out as slowly as the colour camera is.
 double DepthStream::span_us() { return rig().setup().readout_us; }
 
 cv::Mat DepthStream::make_frame(int n, double) {
-  cv::Mat1w raw = (*frames_)[static_cast<std::size_t>(n) % frames_->size()];
+  const std::size_t k = static_cast<std::size_t>(n) % kFrames;
+  if (frames_[k].empty()) frames_[k] = sensor_->frame(static_cast<int>(k));
+  cv::Mat1w raw = frames_[k];
   if (!rig().registered()) raw = seen_from_depth_camera(raw, structured_light_camera(size()).fx);
   if (mode().pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM) return raw;
   cv::Mat1w millimetres;

@@ -23,7 +23,8 @@ class DepthStream : public TimedStream {
   double span_us() override;
   cv::Mat make_frame(int n, double start_us) override;
 
-  std::shared_ptr<const std::vector<cv::Mat1w>> frames_;  ///< registered, units of 100 um
+  std::shared_ptr<const DepthSensor> sensor_;
+  std::vector<cv::Mat1w> frames_;  ///< registered, units of 100 um
 };
 
 /// Depth (units of 100 um) as the depth camera sees it, from depth as the colour camera would: nearest surface wins.

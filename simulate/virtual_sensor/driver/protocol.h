@@ -18,11 +18,23 @@ constexpr const char* kFeedUri = "rakelight-feed";
 /// Device, text: what the device shall be. Virtual: JSON as virtual_sensor/setup.h says; the scene is rendered before
 /// the call returns. Feed: FeedSetup. Not while a stream runs.
 constexpr int kSetup = 0x1D270002;
-/// Virtual device, a byte a lamp (0 off, 1 on) in the setup's order: the lines' levels from now on.
+/// Virtual device, a byte a lamp (0 off, 1 on) in the setup's order. Set: the lines' levels from now on. Get: which
+/// lamps give light now, which is another thing where they have faults.
 constexpr int kLamps = 0x1D270001;
 /// Feed stream, PushedFrame: goes through as a frame of the stream at once.
 constexpr int kPushFrame = 0x1D270003;
 
+/// Virtual device, get, TruthBuffers: they are filled with what the colour camera really has before it, on the grid of the
+/// setup's colour images.
+constexpr int kTruth = 0x1D270004;
+
+struct TruthLamp {
+  double direction[3], strength[3];  ///< as LampTruth
+};
+struct TruthBuffers {
+  float *depth, *normals, *albedo;  ///< 1, 3 and 3 numbers a pixel, rows without gaps
+  TruthLamp* lamps;                 ///< in the setup's order
+};
 struct FeedStream {
   std::int32_t width, height;
   float horizontal_fov, vertical_fov;  ///< radians

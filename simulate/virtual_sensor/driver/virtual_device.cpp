@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate/virtual_sensor/driver/virtual_device.h"
 
+#include <algorithm>
+
 #include "simulate/virtual_sensor/driver/color_stream.h"
 #include "simulate/virtual_sensor/driver/depth_stream.h"
-#include "simulate/virtual_sensor/driver/protocol.h"
 
 namespace rakelight {
 
@@ -46,7 +47,30 @@ OniStatus VirtualDevice::setProperty(int id, const void* data, int size) {
   return ONI_STATUS_NOT_SUPPORTED;
 }
 
+void VirtualDevice::fill(const driver_protocol::TruthBuffers& buffers) {
+  const GroundTruth truth = rig_->truth();
+  const cv::Size size = truth.depth.size();
+  truth.depth.copyTo(cv::Mat(size, CV_32FC1, buffers.depth));
+  truth.normals.copyTo(cv::Mat(size, CV_32FC3, buffers.normals));
+  truth.albedo.copyTo(cv::Mat(size, CV_32FC3, buffers.albedo));
+  for (std::size_t k = 0; k < truth.lamps.size(); ++k) {
+    std::copy_n(truth.lamps[k].direction.data(), 3, buffers.lamps[k].direction);
+    std::copy_n(truth.lamps[k].strength.data(), 3, buffers.lamps[k].strength);
+  }
+}
+
 OniStatus VirtualDevice::getProperty(int id, void* data, int* size) {
+  if (id == driver_protocol::kLamps) {
+    const std::vector<bool> lit = rig_->lit_lamps();
+    if (*size != static_cast<int>(lit.size())) return ONI_STATUS_BAD_PARAMETER;
+    std::copy(lit.begin(), lit.end(), static_cast<char*>(data));
+    return ONI_STATUS_OK;
+  }
+  if (id == driver_protocol::kTruth) {
+    if (*size != static_cast<int>(sizeof(driver_protocol::TruthBuffers))) return ONI_STATUS_BAD_PARAMETER;
+    fill(*static_cast<const driver_protocol::TruthBuffers*>(data));
+    return ONI_STATUS_OK;
+  }
   if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION) return ONI_STATUS_NOT_SUPPORTED;
   const OniImageRegistrationMode mode =
       rig_->registered() ? ONI_IMAGE_REGISTRATION_DEPTH_TO_COLOR : ONI_IMAGE_REGISTRATION_OFF;

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "simulate/virtual_sensor/driver/protocol.h"
 #include "simulate/virtual_sensor/driver/sensor_device.h"
 #include "simulate/virtual_sensor/driver/virtual_rig_state.h"
 
@@ -25,6 +26,7 @@ class VirtualDevice : public oni::driver::DeviceBase {
 
  private:
   OniStatus set_up(const std::string& text);
+  void fill(const driver_protocol::TruthBuffers& buffers);
 
   const ReportError report_;
   const std::shared_ptr<VirtualRigState> rig_;

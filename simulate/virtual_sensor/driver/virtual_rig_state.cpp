@@ -7,8 +7,6 @@
 namespace rakelight {
 namespace {
 
-constexpr int kDepthFrames = 12;  // rendered once, delivered in turn
-
 double host_now_us() {
   using Microseconds = std::chrono::duration<double, std::micro>;
   return Microseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -42,6 +40,13 @@ bool VirtualRigState::write_lamps(const std::vector<bool>& lines) {
   return true;
 }
 
+std::vector<bool> VirtualRigState::lit_lamps() const {
+  const std::lock_guard<std::mutex> lock(lamps_mutex_);
+  std::vector<bool> lit(lamps_->size());
+  for (std::size_t lamp = 0; lamp < lit.size(); ++lamp) lit[lamp] = lamps_->lit_at(lamp, host_now_us());
+  return lit;
+}
+
 std::vector<LampRows> VirtualRigState::light(const RollingShutter& shutter, double start_us) const {
   const std::lock_guard<std::mutex> lock(lamps_mutex_);
   return frame_light(*lamps_, shutter, *epoch_us_ + start_us);
@@ -67,13 +72,19 @@ std::shared_ptr<const FrameRenderer> VirtualRigState::color(cv::Size size) {
   return color_;
 }
 
-std::shared_ptr<const std::vector<cv::Mat1w>> VirtualRigState::depth(cv::Size size) {
+std::shared_ptr<const DepthSensor> VirtualRigState::depth(cv::Size size) {
   const std::lock_guard<std::mutex> lock(scene_mutex_);
   if (!depth_ || depth_size_ != size) {
-    depth_ = std::make_shared<std::vector<cv::Mat1w>>(scene().sense_depth(size, kDepthFrames));
+    depth_ = std::make_shared<DepthSensor>(scene().depth_sensor(size));
     depth_size_ = size;
   }
   return depth_;
+}
+
+GroundTruth VirtualRigState::truth() {
+  const std::shared_ptr<const FrameRenderer> seen = color(setup_.color_size);
+  const std::lock_guard<std::mutex> lock(scene_mutex_);
+  return scene().truth(seen->images());
 }
 
 void VirtualRigState::unplug() {

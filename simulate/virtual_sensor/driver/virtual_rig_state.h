@@ -28,6 +28,9 @@ class VirtualRigState {
   /// Levels of all lines from now on; false if their number is wrong.
   bool write_lamps(const std::vector<bool>& lines);
 
+  /// Which lamps give light now.
+  std::vector<bool> lit_lamps() const;
+
   /// The lamps' light in a frame that starts at `start_us` of the sensor's clock.
   std::vector<LampRows> light(const RollingShutter& shutter, double start_us) const;
 
@@ -35,7 +38,10 @@ class VirtualRigState {
   double now_us();
 
   std::shared_ptr<const FrameRenderer> color(cv::Size size);
-  std::shared_ptr<const std::vector<cv::Mat1w>> depth(cv::Size size);
+  std::shared_ptr<const DepthSensor> depth(cv::Size size);
+
+  /// On the grid of the setup's colour images.
+  GroundTruth truth();
 
   bool registered() const { return registered_; }
   void set_registered(bool registered) { registered_ = registered; }
@@ -54,7 +60,7 @@ class VirtualRigState {
   std::mutex scene_mutex_;
   std::unique_ptr<VirtualScene> scene_;
   std::shared_ptr<const FrameRenderer> color_;
-  std::shared_ptr<const std::vector<cv::Mat1w>> depth_;
+  std::shared_ptr<const DepthSensor> depth_;
   cv::Size depth_size_;
   std::mutex clock_mutex_;
   std::optional<double> epoch_us_;  ///< host time of the sensor clock's zero

@@ -22,12 +22,12 @@ struct RandomSystem {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (size_t p = 0; p < system.diagonal.size(); ++p) {
-      system.diagonal[p] = 9 + uniform(random);
+      system.diagonal[p] = static_cast<float>(9 + uniform(random));
       for (auto* entries : {&system.right, &system.down, &system.down_right, &system.down_left})
-        (*entries)[p] = uniform(random);
+        (*entries)[p] = static_cast<float>(uniform(random));
       system.rhs[static_cast<Eigen::Index>(p)] = uniform(random);
     }
-    system.cell_weight = Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(cells.pixels_of.size()),
+    system.cell_weight = Eigen::VectorXd::NullaryExpr(cells.size(),
                                                       [&] { return 2 + uniform(random); });
   }
 
@@ -49,7 +49,7 @@ TEST(CholeskyDepthSolver, SolvesOneSystemAfterAnother) {
   const auto solver = make_cholesky_depth_solver(random.grid, random.cells);
   Eigen::VectorXd x;
   ASSERT_TRUE(solver->solve(random.system, x));
-  for (double& entry : random.system.diagonal) entry += 5;
+  for (float& entry : random.system.diagonal) entry += 5;
   ASSERT_TRUE(solver->solve(random.system, x));
   EXPECT_TRUE(x.isApprox(random.dense().ldlt().solve(random.system.rhs), 1e-10));
 }

@@ -40,9 +40,9 @@ struct RoughSystem {
       : grid(frayed_grid(width, height)), cells(make_cells(grid, scale)), system(grid.size()) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);
-    const auto couple = [&](std::vector<double>& entries, int p, int q) {
+    const auto couple = [&](std::vector<float>& entries, int p, int q) {
       if (q < 0) return;
-      const double strength = std::pow(contrast, uniform(random));
+      const auto strength = static_cast<float>(std::pow(contrast, uniform(random)));
       entries[static_cast<size_t>(p)] -= strength;
       system.diagonal[static_cast<size_t>(p)] += strength;
       system.diagonal[static_cast<size_t>(q)] += strength;
@@ -51,10 +51,10 @@ struct RoughSystem {
       const auto i = static_cast<size_t>(p);
       couple(system.right, p, grid.neighbor[kRight][i]);
       couple(system.down, p, grid.neighbor[kDown][i]);
-      system.diagonal[i] += 1e-4;
+      system.diagonal[i] += 1e-4f;
       system.rhs[p] = uniform(random) - 0.5;
     }
-    system.cell_weight = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(cells.pixels_of.size()), 1e-2);
+    system.cell_weight = Eigen::VectorXd::Constant(cells.size(), 1e-2);
   }
 };
 

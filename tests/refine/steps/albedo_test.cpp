@@ -25,19 +25,23 @@ TEST(Albedo, IsRecoveredFromImagesWithoutNoise) {
 TEST(Albedo, IgnoresSamplesThatAreNotTrusted) {
   LitSphere lit;
   lit.state.albedo.setOnes();
-  for (int p = 0; p < lit.images.pixels; ++p) {
-    for (int c = 0; c < 3; ++c) lit.images.radiance[test::sample_index(lit.images, 0, c, p)] = 5;
-    lit.state.weight[static_cast<size_t>(p)] = 0;
-    const size_t clipped = test::sample_index(lit.images, 1, 2, p);  // one channel alone
-    lit.images.radiance[clipped] = 1;
-    lit.images.usable[clipped] = 0;
-  }
+  test::change_samples(lit.images, [&](PlainSamples& samples) {
+    for (int p = 0; p < lit.images.pixels; ++p) {
+      for (int c = 0; c < 3; ++c) samples.radiance[test::sample_index(lit.images, 0, c, p)] = 5;
+      lit.state.weight[static_cast<size_t>(p)] = 0;
+      const size_t clipped = test::sample_index(lit.images, 1, 2, p);  // one channel alone
+      samples.radiance[clipped] = 1;
+      samples.usable[clipped] = 0;
+    }
+  });
   EXPECT_TRUE(estimate_albedo(lit.images, lit.state).isApprox(lit.truth, 1e-4f));
 }
 
 TEST(Albedo, IsTheWeightedLeastSquaresAnswer) {
   LitSphere lit;
-  for (size_t k = 0; k < lit.images.radiance.size(); ++k) lit.images.radiance[k] += 0.1f * static_cast<float>(k % 3);
+  test::change_samples(lit.images, [](PlainSamples& samples) {
+    for (size_t k = 0; k < samples.radiance.size(); ++k) samples.radiance[k] += 0.1f * static_cast<float>(k % 3);
+  });
   for (size_t k = 0; k < lit.state.weight.size(); ++k) lit.state.weight[k] = 0.2f + 0.2f * static_cast<float>(k % 4);
   const Eigen::Matrix3Xf found = estimate_albedo(lit.images, lit.state);
   const int p = lit.images.pixels / 2;
@@ -46,7 +50,7 @@ TEST(Albedo, IsTheWeightedLeastSquaresAnswer) {
     const Lamp& lamp = lit.state.lamps[static_cast<size_t>(i)];
     const float S = std::max(0.0f, lamp.l.row(1).dot(lit.state.normals.col(p))) + lamp.phi[1];
     const float w = lit.state.weight[static_cast<size_t>(i * lit.images.pixels + p)];
-    numerator += w * S * lit.images.radiance[test::sample_index(lit.images, i, 1, p)];
+    numerator += w * S * lit.images.channel(i, 1)[p];
     denominator += w * S * S;
   }
   EXPECT_NEAR(static_cast<double>(found(1, p)), static_cast<double>(numerator / denominator), 1e-5);
@@ -71,7 +75,9 @@ TEST(NormalizeAlbedo, MakesTheMeanOneAndKeepsWhatTheImagesShow) {
   normalize_albedo(lit.state);
   const Observations after = test::images_of(lit.state);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(static_cast<double>(lit.state.albedo.row(c).mean()), 1, 1e-5);
-  for (size_t k = 0; k < before.radiance.size(); ++k) EXPECT_LT(std::abs(before.radiance[k] - after.radiance[k]), 1e-5f);
+  for (int i = 0; i < before.images; ++i)
+    for (int p = 0; p < before.pixels; ++p)
+      EXPECT_LT((before.radiance_at(i, p) - after.radiance_at(i, p)).cwiseAbs().maxCoeff(), 3e-5f);
 }
 
 }  // namespace

@@ -27,14 +27,16 @@ class RandomProblem {
       : random_(seed), corners_(make_corners(grid_, stencil)) {
     const size_t pixels = static_cast<size_t>(grid_.size());
     rows_.resize(pixels);
-    tensors_.resize(pixels);
-    corner_weight_.resize(pixels);
+    tensors_ = PhotometricTensors(pixels);
+    corner_weight_ = CornerWeights(pixels);
     for (size_t p = 0; p < pixels; ++p) {
       for (int i = 0; i < 5; ++i) add_row(p, Eigen::Vector3d(uniform(), uniform(), -1), 0.8 + 0.4 * uniform());
-      for (float& weight : corner_weight_[p]) weight = static_cast<float>(0.6 + 0.4 * uniform());
+      for (int k = 0; k < kCorners; ++k)
+        if (corners_.has(static_cast<int>(p), k))
+          corner_weight_[p][static_cast<size_t>(k)] = static_cast<float>(0.6 + 0.4 * uniform());
     }
     prior_.cells = make_cells(grid_, 2);
-    const auto cells = static_cast<Eigen::Index>(prior_.cells.pixels_of.size());
+    const auto cells = static_cast<Eigen::Index>(prior_.cells.size());
     prior_.cell_weight = 3 + vector(cells, 2).array();
     prior_.cell_target = vector(cells, 0.02);
     prior_.start = vector(grid_.size(), 0.02);
@@ -50,11 +52,11 @@ class RandomProblem {
   /// Replaces all equations by such as zeta fulfils exactly (forward stencil), the prior included.
   void make_exact(const Eigen::VectorXd& zeta) {
     for (int p = 0; p < grid_.size(); ++p) {
-      const Corner& corner = corners_.corners[static_cast<size_t>(p)].front();
       auto& rows = rows_[static_cast<size_t>(p)];
       const std::vector<Row> old = std::exchange(rows, {});
-      tensors_[static_cast<size_t>(p)] = {};
-      if (corner.x_neighbor < 0) continue;
+      tensors_.set(static_cast<size_t>(p), {});
+      if (corners_.first(p) < 0) continue;
+      const Corner corner = corner_at(grid_, p, corners_.first(p));
       const Eigen::Vector2f g = corner_gradient(corner, p, zeta);
       const Eigen::Vector3d n = normal_frame(grid_, p).raw(g.x(), g.y()).cast<double>().normalized();
       for (const Row& row : old) add_row(static_cast<size_t>(p), row.l, row.l.dot(n));
@@ -72,17 +74,19 @@ class RandomProblem {
     rows_[p].push_back(row);
     const Eigen::Vector3f lf = l.cast<float>();
     const auto w = static_cast<float>(row.weight), r = static_cast<float>(rest);
-    tensors_[p].G += w * lf * lf.transpose();
-    tensors_[p].h += w * r * lf;
-    tensors_[p].e0 += w * r * r;
+    PhotometricTensor sum = tensors_[p];
+    sum.G += w * lf * lf.transpose();
+    sum.h += w * r * lf;
+    sum.e0 += w * r * r;
+    tensors_.set(p, sum);
   }
 
   std::mt19937 random_;
   PixelGrid grid_ = test::bitten_grid();
   CornerList corners_;
   std::vector<std::vector<Row>> rows_;
-  std::vector<PhotometricTensor> tensors_;
-  std::vector<std::array<float, 4>> corner_weight_;
+  PhotometricTensors tensors_;
+  CornerWeights corner_weight_;
   DepthPrior prior_;
 };
 
@@ -102,9 +106,9 @@ Eigen::VectorXd RandomProblem::dense_step(const Eigen::VectorXd& zeta) const {
     rest.push_back(std::sqrt(weight) * value);
   };
   for (int p = 0; p < grid_.size(); ++p) {
-    for (size_t k = 0; k < 4; ++k) {
-      const Corner& corner = corners_.corners[static_cast<size_t>(p)][k];
-      if (corner.x_neighbor < 0) break;
+    for (int k = 0; k < kCorners; ++k) {
+      if (!corners_.has(p, k)) continue;
+      const Corner corner = corner_at(grid_, p, k);
       const double sx = corner.x_sign > 0 ? 1 : -1, sy = corner.y_sign > 0 ? 1 : -1;
       const double zx = sx * (zeta[corner.x_neighbor] - zeta[p]), zy = sy * (zeta[corner.y_neighbor] - zeta[p]);
       const double h = 1e-6;  // the derivative of n, by differences
@@ -116,7 +120,7 @@ Eigen::VectorXd RandomProblem::dense_step(const Eigen::VectorXd& zeta) const {
         row[corner.x_neighbor] += sx * equation.l.dot(n_x);
         row[corner.y_neighbor] += sy * equation.l.dot(n_y);
         row[p] -= sx * equation.l.dot(n_x) + sy * equation.l.dot(n_y);
-        const double weight = equation.weight * static_cast<double>(corner_weight_[static_cast<size_t>(p)][k]);
+        const double weight = equation.weight * static_cast<double>(corner_weight_[static_cast<size_t>(p)][static_cast<size_t>(k)]);
         add(weight, row, equation.rest - equation.l.dot(n));
       }
     }
@@ -134,7 +138,9 @@ TEST(Tensors, OfSecondOrderLampsHaveTheSlopeOfTheTrueEnergy) {
   const test::ExactSurface sphere = test::exact_sphere(24);
   SurfaceState state = test::exact_state(sphere, test::varied_albedo(sphere), test::second_order_lamps(), false);
   Observations images = test::images_of(state);
-  for (float& radiance : images.radiance) radiance *= 0.9f;
+  test::change_samples(images, [](PlainSamples& samples) {
+    for (float& radiance : samples.radiance) radiance *= 0.9f;
+  });
   const auto tensors = accumulate_tensors(images, state);
   const auto energy = [&](int p, const Eigen::Vector3d& n) {
     double sum = 0;
@@ -150,7 +156,7 @@ TEST(Tensors, OfSecondOrderLampsHaveTheSlopeOfTheTrueEnergy) {
   };
   for (int p = 0; p < sphere.grid.size(); p += 7) {
     const Eigen::Vector3d n = state.normals.col(p).cast<double>();
-    const PhotometricTensor& tensor = tensors[static_cast<size_t>(p)];
+    const PhotometricTensor tensor = tensors[static_cast<size_t>(p)];
     EXPECT_NEAR(static_cast<double>(tensor.energy(n.cast<float>())), energy(p, n), 1e-4 + 1e-3 * energy(p, n));
     const Eigen::Vector3d slope = 2 * (tensor.G * n.cast<float>() - tensor.h).cast<double>();
     for (int k = 0; k < 3; ++k) {
@@ -253,8 +259,10 @@ struct SpoiltImages {
     images = test::images_of(state);
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform(0, 1);
-    for (float& radiance : images.radiance) radiance += 0.2f * uniform(random);
-    for (unsigned char& usable : images.usable) usable = uniform(random) < 0.8f;
+    test::change_samples(images, [&](PlainSamples& samples) {
+      for (float& radiance : samples.radiance) radiance += 0.2f * uniform(random);
+      for (unsigned char& usable : samples.usable) usable = uniform(random) < 0.8f;
+    });
     for (float& weight : state.weight) weight = uniform(random) < 0.1f ? 0.0f : uniform(random);
   }
 
@@ -263,12 +271,11 @@ struct SpoiltImages {
     double sum = 0;
     for (int i = 0; i < images.images; ++i) {
       for (int c = 0; c < 3; ++c) {
-        const size_t at = test::sample_index(images, i, c, p);
-        if (!images.usable[at]) continue;
+        if (!images.usable(i, c, p)) continue;
         const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
         const bool dark = state.attached_shadows && lamp.l.row(c).dot(state.normals.col(p)) <= 0;
         const float lit = dark ? 0.0f : lamp.l.row(c).dot(normal);
-        const float r = state.albedo(c, p) * (lit + lamp.phi[c]) - images.radiance[at];
+        const float r = state.albedo(c, p) * (lit + lamp.phi[c]) - images.channel(i, c)[p];
         sum += static_cast<double>(state.weight[static_cast<size_t>(i * images.pixels + p)] * r * r);
       }
     }
@@ -292,15 +299,18 @@ TEST(CornerWeights, AreTheShareOfTheCornerWithoutEdgeWeighting) {
   const DepthProblem problem = random.problem();
   const auto weights = corner_weights(problem.grid, problem.corners, problem.tensors,
                                       Eigen::VectorXd::Zero(problem.grid.size()), 0);
-  for (size_t p = 0; p < weights.size(); ++p) EXPECT_EQ(weights[p][0], problem.corners.weight[p]);
+  for (size_t p = 0; p < weights.size(); ++p)
+    for (int k = 0; k < kCorners; ++k)
+      EXPECT_EQ(weights[p][static_cast<size_t>(k)],
+                problem.corners.has(static_cast<int>(p), k) ? problem.corners.weight[p] : 0.0f);
 }
 
 TEST(CornerWeights, FallByTheRootOfTwoAtTheEdgeWeightTimesTheMedianEnergy) {
   const PixelGrid grid = make_pixel_grid({5, 5, 20, 20, 2, 2, {}}, cv::Mat1b(5, 5, uchar{255}));
   const CornerList corners = make_corners(grid, Stencil::symmetric);
-  std::vector<PhotometricTensor> tensors(25);
-  for (PhotometricTensor& tensor : tensors) tensor.e0 = 1;
-  tensors[12].e0 = 10;
+  PhotometricTensors tensors(25);
+  std::fill_n(tensors.part(PhotometricTensors::e0), 25, 1.0f);
+  tensors.part(PhotometricTensors::e0)[12] = 10;
   const auto weights = corner_weights(grid, corners, tensors, Eigen::VectorXd::Zero(25), 10);
   EXPECT_FLOAT_EQ(weights[12][0], 0.25f / std::sqrt(2.0f));
   EXPECT_FLOAT_EQ(weights[11][0], 0.25f / std::sqrt(1.1f));

@@ -70,9 +70,11 @@ TEST(FarLamps, SolveTheWeightedNormalEquations) {
   LitSphere lit(false);
   std::mt19937 random(1);
   std::uniform_real_distribution<float> uniform(0, 1);
-  for (float& radiance : lit.images.radiance) radiance += 0.3f * uniform(random);
+  test::change_samples(lit.images, [&](PlainSamples& samples) {
+    for (float& radiance : samples.radiance) radiance += 0.3f * uniform(random);
+    for (unsigned char& usable : samples.usable) usable = uniform(random) < 0.7f;
+  });
   for (float& weight : lit.state.weight) weight = uniform(random);
-  for (unsigned char& usable : lit.images.usable) usable = uniform(random) < 0.7f;
   const std::vector<Lamp> lamps = estimate_far_lamps(lit.images, lit.state);
   const int pixels = lit.images.pixels;
   for (int i = 0; i < lit.images.images; ++i) {
@@ -80,12 +82,11 @@ TEST(FarLamps, SolveTheWeightedNormalEquations) {
       Eigen::MatrixXd A(pixels, 4);
       Eigen::VectorXd b(pixels);
       for (int p = 0; p < pixels; ++p) {
-        const size_t at = test::sample_index(lit.images, i, c, p);
         const float weight = lit.state.weight[static_cast<size_t>(i * pixels + p)];
-        const double root = lit.images.usable[at] ? std::sqrt(static_cast<double>(weight)) : 0;
+        const double root = lit.images.usable(i, c, p) ? std::sqrt(static_cast<double>(weight)) : 0;
         A.row(p) << lit.state.normals.col(p).transpose().cast<double>(), 1;
         A.row(p) *= root * static_cast<double>(lit.state.albedo(c, p));
-        b[p] = root * static_cast<double>(lit.images.radiance[at]);
+        b[p] = root * static_cast<double>(lit.images.channel(i, c)[p]);
       }
       const Eigen::Vector4d expected = A.colPivHouseholderQr().solve(b);
       const Lamp& lamp = lamps[static_cast<size_t>(i)];
@@ -101,11 +102,13 @@ TEST(FarLamps, ASampleInTheLampsShadowSpeaksForTheAmbientShareOnly) {
   side.l.rowwise() = Eigen::RowVector3f(-1, 0, 0);
   lit.truth[0] = side;
   lit.images = test::images_of(lit.state);
-  for (int p = 0; p < lit.images.pixels; ++p) {
-    if (lit.state.normals(0, p) <= 0) continue;  // raise what the dark half shows
-    for (int c = 0; c < 3; ++c)
-      lit.images.radiance[test::sample_index(lit.images, 0, c, p)] += 0.05f * lit.state.albedo(c, p);
-  }
+  test::change_samples(lit.images, [&](PlainSamples& samples) {
+    for (int p = 0; p < lit.images.pixels; ++p) {
+      if (lit.state.normals(0, p) <= 0) continue;  // raise what the dark half shows
+      for (int c = 0; c < 3; ++c)
+        samples.radiance[test::sample_index(lit.images, 0, c, p)] += 0.05f * lit.state.albedo(c, p);
+    }
+  });
   const Lamp found = estimate_far_lamps(lit.images, lit.state).front();
   for (int c = 0; c < 3; ++c) {
     EXPECT_GT(found.phi[c], side.phi[c] + 0.03f);

@@ -7,8 +7,11 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "refine/steps/matt_images.h"
 #include "refine/steps/near_lamp_equations.h"
 #include "refine/steps/near_lamp_incidence.h"
+#include "refine/steps/near_lamp_prior.h"
+#include "refine/steps/near_lamp_search.h"
 #include "tests/refine/exact_surface.h"
 
 namespace rakelight {
@@ -96,14 +99,16 @@ TEST(NearLampEquations, TheirRightHandSideIsTheEnergysSlope) {
   for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance *= 0.8f;
   const DepthPrior prior = pull_on(lit.sphere);
   const BroadShape shape{lit.sphere.grid, prior};
-  const NearLampProblem problem(lit.images, &shape, lit.state, lit.images.pixels);
-  const NearLampUnknowns at{lit.state.lamps, lit.state.scene};
+  const auto regions = sample_lamp_regions(lit.images, &shape, lit.state, lit.images.pixels);
+  const NearLampUnknowns at{lit.state.lamps, lit.state.scene, Gloss(0.02, 0.03)};
   Eigen::VectorXd found = Eigen::VectorXd::Zero(at.size()), slope = found;
-  for (const NearLampEquations& region : problem.equations(at)) found -= 2 * region.b;
+  for (const NearLampEquations& region : near_lamp_equations(regions, at)) found -= 2 * region.b;
   constexpr double h = 1e-3;
   for (Eigen::Index k = 0; k < at.size(); ++k) {
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(at.size(), k);
-    slope[k] = (problem.energy(at.moved(step, 10)) - problem.energy(at.moved(-step, 10))) / (2 * h);
+    slope[k] =
+        (near_lamp_energy(regions, at.moved(step, 10)) - near_lamp_energy(regions, at.moved(-step, 10))) /
+        (2 * h);
   }
   EXPECT_GT(slope.head(at.aim_at()).norm(), 0.1);
   EXPECT_GT(slope.tail(NearLampUnknowns::kShared).norm(), 0.1);
@@ -113,7 +118,7 @@ TEST(NearLampEquations, TheirRightHandSideIsTheEnergysSlope) {
 
 TEST(NearLampEquations, KnowNothingOfAFactorThatAlbedoAndStrengthShare) {
   const NearlyLitSphere lit;
-  const NearLampProblem problem(lit.images, nullptr, lit.state, lit.images.pixels);
+  const auto regions = sample_lamp_regions(lit.images, nullptr, lit.state, lit.images.pixels);
   const NearLampUnknowns at{lit.state.lamps, lit.state.scene};
   Eigen::VectorXd brighter = Eigen::VectorXd::Zero(at.size());
   for (size_t i = 0; i < at.lamps.size(); ++i) {
@@ -121,7 +126,7 @@ TEST(NearLampEquations, KnowNothingOfAFactorThatAlbedoAndStrengthShare) {
     brighter[at.lamp_at(static_cast<Eigen::Index>(i)) + 6] = static_cast<double>(at.lamps[i].phi[0]);
   }
   double curvature = 0, of_one_lamp = 0;
-  for (const NearLampEquations& region : problem.equations(at)) {
+  for (const NearLampEquations& region : near_lamp_equations(regions, at)) {
     curvature += brighter.dot(region.A * brighter);
     of_one_lamp += region.A(3, 3);
   }
@@ -171,7 +176,8 @@ TEST(NearLamps, StartFromFarOnesWithTheirDirectionAndStrength) {
 TEST(NearLamps, AreFoundFromTwiceTooFarAway) {
   NearlyLitSphere lit;
   for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance /= 2;
-  for (int i = 0; i < 10; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state);
+  Gloss gloss = Gloss::Zero();
+  for (int i = 0; i < 10; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state, gloss);
   for (size_t i = 0; i < lit.truth.size(); ++i) {
     const Eigen::Vector3d expected = lamp_position(lit.truth[i], lit.state.scene);
     EXPECT_LT((lamp_position(lit.state.lamps[i], lit.state.scene) - expected).norm(), 0.01)
@@ -186,7 +192,8 @@ TEST(NearLamps, OfFarLightMoveAway) {
   for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance = 0;
   lit.images = test::images_of(lit.state);
   for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance = 1;
-  for (int i = 0; i < 10; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state);
+  Gloss gloss = Gloss::Zero();
+  for (int i = 0; i < 10; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state, gloss);
   for (const Lamp& lamp : lit.state.lamps) EXPECT_LT(lamp.inverse_distance, 0.02f);
 }
 
@@ -197,7 +204,8 @@ TEST(NearLamps, AtGivenPositionsKeepThemAndFitTheirStrength) {
   NearLampOptions options;
   options.fixed_positions = true;
   options.steps = 10;
-  fit_near_lamps(lit.images, nullptr, options, lit.state);
+  Gloss gloss = Gloss::Zero();
+  fit_near_lamps(lit.images, nullptr, options, lit.state, gloss);
   const std::vector<Lamp>& found = lit.state.lamps;
   for (size_t i = 0; i < lit.truth.size(); ++i) {
     EXPECT_TRUE(found[i].direction.isApprox(lit.truth[i].direction, 1e-6f));
@@ -210,8 +218,99 @@ TEST(NearLamps, FarOnesAreLeftAlone) {
   NearlyLitSphere lit;
   lit.state.lamps[1] = test::far_lamp(0.3f, 0.2f);
   const Eigen::Matrix3f before = lit.state.lamps[1].l;
-  fit_near_lamps(lit.images, nullptr, {}, lit.state);
+  Gloss gloss = Gloss::Zero();
+  fit_near_lamps(lit.images, nullptr, {}, lit.state, gloss);
   EXPECT_EQ(lit.state.lamps[1].l, before);
+}
+
+/// Adds the highlights of the true lamps to the images, and a cast shadow to the first.
+void make_glossy_and_shadowed(const Gloss& gloss, NearlyLitSphere& lit) {
+  const Observations matt = lit.images;
+  SurfaceState dull = lit.state;
+  take_off_highlights(matt, dull, -gloss, lit.images);
+  test::change_samples(lit.images, [&](PlainSamples& samples) {
+    for (int p = 0; p < lit.images.pixels; ++p)
+      if (lit.state.points(0, p) > 0.05f && lit.state.points(1, p) > 0)
+        for (int c = 0; c < 3; ++c) samples.radiance[test::sample_index(lit.images, 0, c, p)] *= 0.05f;
+  });
+}
+
+/// Mean distance of the lamps found from the true ones, metres, after a fit of glossy, shadowed images from the truth on.
+double error_under_gloss_and_shadow(bool highlights, Gloss& gloss) {
+  NearlyLitSphere lit;
+  make_glossy_and_shadowed(Gloss(0.1, 0.2), lit);
+  NearLampOptions options;
+  options.highlights = highlights;
+  gloss.setZero();
+  for (int i = 0; i < 20; ++i) fit_near_lamps(lit.images, nullptr, options, lit.state, gloss);
+  double sum = 0;
+  for (size_t i = 0; i < lit.truth.size(); ++i)
+    sum +=
+        (lamp_position(lit.state.lamps[i], lit.state.scene) -
+         lamp_position(lit.truth[i], test::exact_state(lit.sphere, lit.state.albedo, lit.truth, true).scene))
+            .norm();
+  return sum / static_cast<double>(lit.truth.size());
+}
+
+TEST(NearLamps, AreFoundDespiteHighlightsAndShadows) {
+  Gloss found, none;
+  const double knowing = error_under_gloss_and_shadow(true, found);
+  EXPECT_LT(knowing, 0.01);
+  EXPECT_GT(error_under_gloss_and_shadow(false, none), 5 * knowing);
+  EXPECT_NEAR(found[0], 0.1, 0.03);
+  EXPECT_NEAR(found[1], 0.2, 0.06);
+  EXPECT_TRUE(none.isZero(0));
+}
+
+TEST(NearLampPrior, PullsAPowerThatTheOthersDoNotShare) {
+  NearlyLitSphere lit;
+  lit.state.lamps[0].strength *= 5;
+  const NearLampUnknowns at{lit.state.lamps, lit.state.scene};
+  const NearLampEquations prior = near_lamp_prior(at, lit.state.scene.center, 1e-4);
+  EXPECT_LT(prior.b[3], 0) << "weaker";
+  EXPECT_GT(prior.b[2], 0) << "nearer";
+  EXPECT_GT(prior.b[at.lamp_at(1) + 3], 0) << "the others stronger";
+  const double h = 1e-3;
+  for (const Eigen::Index k : {Eigen::Index{2}, Eigen::Index{3}, at.lamp_at(1) + 4}) {
+    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(at.size(), k);
+    const double slope = (near_lamp_prior(at.moved(step, 10), lit.state.scene.center, 1e-4).energy -
+                          near_lamp_prior(at.moved(-step, 10), lit.state.scene.center, 1e-4).energy) /
+                         (2 * h);
+    EXPECT_NEAR(-2 * prior.b[k], slope, 0.02 * std::abs(slope)) << "unknown " << k;
+  }
+}
+
+TEST(NearLampSearch, FindsLampsWithoutAStart) {
+  NearlyLitSphere lit;
+  for (Lamp& lamp : lit.state.lamps) lamp.direction = Eigen::Vector3f(0, 0, -1);
+  const std::vector<Lamp> found = search_near_lamps(lit.images, lit.state);
+  for (size_t i = 0; i < lit.truth.size(); ++i) {
+    EXPECT_GT(found[i].direction.dot(lit.truth[i].direction), std::cos(0.2f)) << "radians, lamp " << i;
+    EXPECT_NEAR(found[i].inverse_distance, lit.truth[i].inverse_distance, 0.6f) << "1/m, lamp " << i;
+  }
+}
+
+/// A lamp whose image two places explain about as well: the one of the others' power is taken.
+TEST(NearLampSearch, DoesNotTakeALampOfAnotherPowerForAFartherOne) {
+  NearlyLitSphere lit;
+  const std::vector<Lamp> found = search_near_lamps(lit.images, lit.state);
+  for (const Lamp& lamp : found) EXPECT_NEAR(log_lamp_power(lamp), log_lamp_power(lit.truth[0]), 0.7);
+}
+
+TEST(MattImages, AreTheImagesLessTheHighlights) {
+  NearlyLitSphere lit;
+  const Observations before = lit.images;
+  const Gloss gloss(0.1, 0.2);
+  make_glossy_and_shadowed(gloss, lit);
+  Observations matt = lit.images;
+  take_off_highlights(lit.images, lit.state, gloss, matt);
+  double brightest = 0;
+  for (int p = 0; p < before.pixels; ++p) {
+    EXPECT_NEAR(matt.channel(1, 2)[p], before.channel(1, 2)[p], 1e-4f);
+    brightest =
+        std::max(brightest, static_cast<double>(lit.images.channel(1, 2)[p] - before.channel(1, 2)[p]));
+  }
+  EXPECT_NEAR(brightest, 0.3 * 0.6, 0.05) << "both lobes, by the lamp's strength";
 }
 
 /// Errors of the first lamp's distance (true: 0.7), metres: deviation and mean as found over ten draws of noise, and
@@ -231,12 +330,15 @@ Spread spread_under_noise(float deviation) {
   Eigen::Array<double, kDraws, 1> errors;
   for (int draw = 0; draw < kDraws; ++draw) {
     lit.images = clean;
-    for (float& radiance : lit.images.radiance) radiance += noise(random);
+    test::change_samples(lit.images, [&](PlainSamples& samples) {
+      for (float& radiance : samples.radiance) radiance += noise(random);
+    });
     lit.state.lamps = lit.truth;
-    for (int i = 0; i < 4; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state);
+    Gloss gloss = Gloss::Zero();
+    for (int i = 0; i < 4; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state, gloss);
     const double error = 1 / static_cast<double>(lit.state.lamps[0].inverse_distance) - 0.7;
     errors[draw] = error;
-    const LampUncertainty told = near_lamp_uncertainty(lit.images, nullptr, {}, lit.state)[0];
+    const LampUncertainty told = near_lamp_uncertainty(lit.images, nullptr, {}, lit.state, gloss)[0];
     spread.told += told.distance_deviation / kDraws;
     spread.told_direction += told.direction_deviation / kDraws;
   }

@@ -31,9 +31,11 @@ struct NoisyPlane {
     images = test::images_of(state);
     std::mt19937 random(1);
     std::normal_distribution<double> white(0, 1);
-    for (float& radiance : images.radiance) radiance += static_cast<float>(kImageNoise * white(random));
+    test::change_samples(images, [&](PlainSamples& samples) {
+      for (float& radiance : samples.radiance) radiance += static_cast<float>(kImageNoise * white(random));
+    });
     prior.cells = make_cells(grid, scale);
-    const auto cells = static_cast<Eigen::Index>(prior.cells.pixels_of.size());
+    const auto cells = prior.cells.size();
     prior.cell_weight = Eigen::VectorXd::Ones(cells);
     prior.cell_target = Eigen::VectorXd::NullaryExpr(cells, [&] { return kDepthNoise * white(random); });
   }
@@ -59,9 +61,9 @@ TEST(MeasureNoise, TheShapesOwnBroadErrorIsNotTheSensors) {
 TEST(MeasureNoise, ErrorsThatAgreeOverABlockCountForMore) {
   NoisyPlane plane(1);
   plane.images = test::images_of(plane.state);
-  for (int i = 0; i < plane.images.images; ++i)
-    for (int p = 0; p < plane.grid.size(); ++p)
-      for (int c = 0; c < 3; ++c) plane.images.radiance[test::sample_index(plane.images, i, c, p)] += 0.01f;
+  test::change_samples(plane.images, [](PlainSamples& samples) {
+    for (float& radiance : samples.radiance) radiance += 0.01f;
+  });
   // 4 x 4 pixels x 3 channels err alike: the mean's error is that of one sample, not a root of 48 smaller.
   EXPECT_NEAR(plane.measured().image, 1.4826 * 0.01 * std::sqrt(48.0), 1e-3);
 }

@@ -59,14 +59,14 @@ TEST(RatioRows, VanishAtTheTruth) {
   const auto rows = ratio_rows(lit.grid, lit.image, lit.state);
   ASSERT_EQ(rows.size(), static_cast<size_t>(3 * lit.grid.size()));
   for (const GradientRow& row : rows)
-    EXPECT_NEAR(row.a.dot(forward_gradient(lit.corners, row.pixel, lit.state.zeta)), row.b, 1e-5);
+    EXPECT_NEAR(row.a.dot(forward_gradient(lit.grid, lit.corners, row.pixel, lit.state.zeta)), row.b, 1e-5);
 }
 
 TEST(RatioRows, LeadFromAFlatStartToTheTruth) {
   const ColorLitSlope lit;
   const Smoothness none(uncut_laplacian(lit.grid), 0);
   const Eigen::VectorXd flat = Eigen::VectorXd::Constant(lit.grid.size(), lit.state.zeta.mean());
-  const GradientProblem problem{lit.corners, ratio_rows(lit.grid, lit.image, lit.state), 1e-7, flat, none};
+  const GradientProblem problem{lit.grid, lit.corners, ratio_rows(lit.grid, lit.image, lit.state), 1e-7, flat, none};
   SparseCholesky solver;
   Eigen::VectorXd zeta = flat;
   ASSERT_TRUE(solve_gradient_rows(problem, solver, zeta));
@@ -78,7 +78,7 @@ TEST(GradientRows, AreSolvedAsADenseSystemWouldBe) {
   const ColorLitSlope lit;
   const Smoothness smoothness(uncut_laplacian(lit.grid), 0.3);
   const Eigen::VectorXd start = lit.state.zeta.array().sin();
-  const GradientProblem problem{lit.corners, ratio_rows(lit.grid, lit.image, lit.state), 0.5, start,
+  const GradientProblem problem{lit.grid, lit.corners, ratio_rows(lit.grid, lit.image, lit.state), 0.5, start,
                                 smoothness};
   Eigen::MatrixXd A =
       0.5 * Eigen::MatrixXd::Identity(start.size(), start.size()) + Eigen::MatrixXd(smoothness.matrix());
@@ -87,7 +87,7 @@ TEST(GradientRows, AreSolvedAsADenseSystemWouldBe) {
        problem.rows) {  // rows by unit vectors: nothing shared with the code but the gradient
     Eigen::VectorXd dense(start.size());
     for (Eigen::Index q = 0; q < dense.size(); ++q)
-      dense[q] = row.a.dot(forward_gradient(lit.corners, row.pixel, Eigen::VectorXd::Unit(start.size(), q)));
+      dense[q] = row.a.dot(forward_gradient(lit.grid, lit.corners, row.pixel, Eigen::VectorXd::Unit(start.size(), q)));
     A += dense * dense.transpose();
     b += row.b * dense;
   }
@@ -114,14 +114,14 @@ TEST(ShadingRows, VanishAtTheTruth) {
   lamp.Q[0] << 0.05f, 0.02f, -0.03f,
                0.02f, -0.01f, 0.04f,
                -0.03f, 0.04f, -0.04f;
-  const Eigen::Matrix3Xf normals = orthographic_normals(corners, z, k);
+  const Eigen::Matrix3Xf normals = orthographic_normals(grid, corners, z, k);
   Eigen::VectorXd I(grid.size());
   for (int p = 0; p < grid.size(); ++p) {
     const Eigen::Vector3f n = normals.col(p);
     I[p] = rho[p] * static_cast<double>(lamp.l.row(0).dot(n) + n.dot(lamp.Q[0] * n) + lamp.phi[0]);
   }
-  for (const GradientRow& row : shading_rows(corners, lamp, rho, I, z, k)) {
-    EXPECT_NEAR(row.a.dot(forward_gradient(corners, row.pixel, z)), row.b, 1e-6);
+  for (const GradientRow& row : shading_rows(grid, corners, lamp, rho, I, z, k)) {
+    EXPECT_NEAR(row.a.dot(forward_gradient(grid, corners, row.pixel, z)), row.b, 1e-6);
   }
 }
 

@@ -22,14 +22,18 @@ struct NoisySphere {
   NoisySphere() {
     std::mt19937 random(1);
     std::normal_distribution<float> noise(0, kSigma);
-    for (float& radiance : images.radiance) radiance += noise(random);
+    test::change_samples(images, [&](PlainSamples& samples) {
+      for (float& radiance : samples.radiance) radiance += noise(random);
+    });
   }
 
   /// Brightens every fifth pixel of every image, as a highlight does.
   void add_highlights() {
-    for (int i = 0; i < images.images; ++i)
-      for (int p = i; p < images.pixels; p += 5)
-        for (int c = 0; c < 3; ++c) images.radiance[test::sample_index(images, i, c, p)] += 0.5f;
+    test::change_samples(images, [&](PlainSamples& samples) {
+      for (int i = 0; i < images.images; ++i)
+        for (int p = i; p < images.pixels; p += 5)
+          for (int c = 0; c < 3; ++c) samples.radiance[test::sample_index(images, i, c, p)] += 0.5f;
+    });
   }
 };
 
@@ -46,10 +50,12 @@ TEST(ResidualScale, IsHardlyMovedByHighlights) {
 
 TEST(ResidualScale, IgnoresClippedChannels) {
   NoisySphere noisy;
-  for (size_t k = 0; k < noisy.images.radiance.size(); ++k) {
-    if (k % 5 < 3) noisy.images.radiance[k] = 9;
-    noisy.images.usable[k] = k % 5 >= 3;
-  }
+  test::change_samples(noisy.images, [](PlainSamples& samples) {
+    for (size_t k = 0; k < samples.radiance.size(); ++k) {
+      if (k % 5 < 3) samples.radiance[k] = 9;
+      samples.usable[k] = k % 5 >= 3;
+    }
+  });
   EXPECT_NEAR(residual_scale(noisy.images, noisy.state), static_cast<double>(kSigma), 0.05 * static_cast<double>(kSigma));
 }
 
@@ -76,7 +82,9 @@ TEST(CauchyWeights, AreLowForHighlightsAndHighForTheRest) {
 TEST(CauchyWeights, AreAHalfWhereTheResidualIsTheScale) {
   NoisySphere noisy;
   noisy.images = test::images_of(noisy.state);
-  for (int c = 0; c < 3; ++c) noisy.images.radiance[test::sample_index(noisy.images, 2, c, 11)] += kSigma;
+  test::change_samples(noisy.images, [&](PlainSamples& samples) {
+    for (int c = 0; c < 3; ++c) samples.radiance[test::sample_index(noisy.images, 2, c, 11)] += kSigma;
+  });
   const auto weights = cauchy_weights(noisy.images, noisy.state, static_cast<double>(kSigma));
   EXPECT_LT(std::abs(weights[static_cast<size_t>(2 * noisy.images.pixels + 11)] - 0.5f), 1e-4f);
   EXPECT_LT(std::abs(weights[static_cast<size_t>(2 * noisy.images.pixels + 12)] - 1.0f), 1e-4f);
@@ -85,10 +93,12 @@ TEST(CauchyWeights, AreAHalfWhereTheResidualIsTheScale) {
 TEST(CauchyWeights, JudgeASampleByItsUsableChannelsAlone) {
   NoisySphere noisy;
   noisy.images = test::images_of(noisy.state);
-  const size_t clipped = test::sample_index(noisy.images, 0, 1, 3);
-  noisy.images.radiance[clipped] = 9;
-  noisy.images.usable[clipped] = 0;
-  for (int c = 0; c < 3; ++c) noisy.images.usable[test::sample_index(noisy.images, 0, c, 4)] = 0;
+  test::change_samples(noisy.images, [&](PlainSamples& samples) {
+    const size_t clipped = test::sample_index(noisy.images, 0, 1, 3);
+    samples.radiance[clipped] = 9;
+    samples.usable[clipped] = 0;
+    for (int c = 0; c < 3; ++c) samples.usable[test::sample_index(noisy.images, 0, c, 4)] = 0;
+  });
   const auto weights = cauchy_weights(noisy.images, noisy.state, static_cast<double>(kSigma));
   EXPECT_LT(std::abs(weights[3] - 1.0f), 1e-4f);
   EXPECT_EQ(weights[4], 0);
@@ -96,22 +106,27 @@ TEST(CauchyWeights, JudgeASampleByItsUsableChannelsAlone) {
 
 TEST(UsableWeights, AreOneWhereAnyChannelIsUsable) {
   NoisySphere noisy;
-  for (int c = 0; c < 3; ++c) noisy.images.usable[test::sample_index(noisy.images, 0, c, 4)] = 0;
-  noisy.images.usable[test::sample_index(noisy.images, 0, 1, 5)] = 0;
+  test::change_samples(noisy.images, [&](PlainSamples& samples) {
+    for (int c = 0; c < 3; ++c) samples.usable[test::sample_index(noisy.images, 0, c, 4)] = 0;
+    samples.usable[test::sample_index(noisy.images, 0, 1, 5)] = 0;
+  });
   const auto weights = usable_weights(noisy.images);
-  EXPECT_EQ(weights.size(), noisy.images.usable.size() / 3);
+  EXPECT_EQ(weights.size(), static_cast<size_t>(noisy.images.images * noisy.images.pixels));
   EXPECT_EQ(weights[4], 0);
   EXPECT_EQ(weights[5], 1);
 }
 
 TEST(MedianRadiance, IsTheMiddleOfTheUsableSamples) {
   NoisySphere noisy;
-  for (size_t k = 0; k < noisy.images.radiance.size(); ++k) {
-    noisy.images.radiance[k] = k % 3 == 0 ? 0.1f : k % 3 == 1 ? 0.3f : 0.9f;
-  }
-  EXPECT_NEAR(median_radiance(noisy.images), 0.3, 1e-6);
-  for (size_t k = 0; k < noisy.images.usable.size(); ++k) noisy.images.usable[k] = k % 3 == 0;
-  EXPECT_NEAR(median_radiance(noisy.images), 0.1, 1e-6);
+  test::change_samples(noisy.images, [](PlainSamples& samples) {
+    for (size_t k = 0; k < samples.radiance.size(); ++k)
+      samples.radiance[k] = k % 3 == 0 ? 0.1f : k % 3 == 1 ? 0.3f : 0.9f;
+  });
+  EXPECT_NEAR(median_radiance(noisy.images), 0.3, 1e-5);
+  test::change_samples(noisy.images, [](PlainSamples& samples) {
+    for (size_t k = 0; k < samples.usable.size(); ++k) samples.usable[k] = k % 3 == 0;
+  });
+  EXPECT_NEAR(median_radiance(noisy.images), 0.1, 1e-5);
 }
 
 }  // namespace

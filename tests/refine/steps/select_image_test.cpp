@@ -20,8 +20,8 @@ struct Scan {
   Observations images;
 
   explicit Scan(const std::vector<LampColor>& lamps) {
-    images.pixels = 2;
-    images.images = static_cast<int>(lamps.size());
+    images = Observations(2, static_cast<int>(lamps.size()));
+    PlainSamples samples;
     for (size_t i = 0; i < lamps.size(); ++i) {
       const std::string id = "lamp-" + std::to_string(i);
       stack.lights.push_back({id, lamps[i], {}, {}});
@@ -30,16 +30,16 @@ struct Scan {
       images.colored_lamps.push_back(lamps[i] == LampColor::rgb);
       images.lamp_positions.emplace_back();
       for (int c = 0; c < 3; ++c)
-        images.radiance.insert(images.radiance.end(), 2,
-                               10.0f * static_cast<float>(i) + static_cast<float>(c));
+        samples.radiance.insert(samples.radiance.end(), 2, 10.0f * static_cast<float>(i) + static_cast<float>(c));
     }
-    images.usable.assign(images.radiance.size(), 1);
+    samples.usable.assign(samples.radiance.size(), 1);
+    images.set(samples);
   }
 };
 
 TEST(SelectImage, TakesTheFirstOrTheOneAskedFor) {
   const Scan scan({LampColor::white, LampColor::white});
-  EXPECT_EQ(select_any_image(scan.images, -1).image.radiance.front(), 0);
+  EXPECT_EQ(select_any_image(scan.images, -1).image.channel(0, 0)[0], 0);
   const SelectedImage second = select_any_image(scan.images, 5);
   EXPECT_EQ(second.image.images, 1);
   EXPECT_EQ(second.image.channel(0, 2)[1], 12);
@@ -66,11 +66,14 @@ TEST(SelectImage, TakesAnOnlyImageForAColourLitOne) {
 
 TEST(SelectImage, PutsImagesUnderRedGreenAndBlueLampsTogether) {
   Scan scan({LampColor::blue, LampColor::white, LampColor::red, LampColor::green});
-  scan.images.usable[(3 * 3 + 1) * 2] = 0;  // green lamp, green channel, first pixel
+  PlainSamples samples = scan.images.plain();
+  samples.usable[(3 * 3 + 1) * 2] = 0;  // green lamp, green channel, first pixel
+  scan.images.set(samples);
   const SelectedImage chosen = select_colored_image(scan.stack, scan.images, -1);
   EXPECT_EQ(chosen.image.images, 1);
   EXPECT_EQ(chosen.image.channel(0, 0)[0], 20);
-  EXPECT_EQ(chosen.image.channel(0, 1)[0], 31);
+  EXPECT_FALSE(chosen.image.usable(0, 1, 0));
+  EXPECT_EQ(chosen.image.channel(0, 1)[1], 31);
   EXPECT_EQ(chosen.image.channel(0, 2)[0], 2);
   EXPECT_EQ(chosen.image.usable_channels(0, 0), Eigen::Vector3f(1, 0, 1));
   EXPECT_EQ(chosen.image.usable_channels(0, 1), Eigen::Vector3f(1, 1, 1));

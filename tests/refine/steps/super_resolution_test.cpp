@@ -23,7 +23,7 @@ struct RandomPrior {
       return Eigen::VectorXd(Eigen::VectorXd::NullaryExpr(size, [&] { return uniform(random); }));
     };
     prior.cells = make_cells(grid, scale);
-    const auto cells = static_cast<Eigen::Index>(prior.cells.pixels_of.size());
+    const auto cells = prior.cells.size();
     prior.cell_weight = 2 + vector(cells).array();
     prior.cell_target = vector(cells);
     prior.start = vector(grid.size());
@@ -41,8 +41,8 @@ struct RandomPrior {
 TEST(MakeCells, PutsEachPixelIntoTheDepthPixelThatCoversIt) {
   const PixelGrid grid = make_pixel_grid({6, 4, 10, 10, 2.5, 1.5, {}}, cv::Mat1b(4, 6, uchar{255}));
   const DepthCells cells = make_cells(grid, 2);
-  ASSERT_EQ(cells.pixels_of.size(), 6U);
-  for (const auto& pixels : cells.pixels_of) EXPECT_EQ(pixels.size(), 4U);
+  ASSERT_EQ(cells.size(), 6);
+  for (int cell = 0; cell < 6; ++cell) EXPECT_EQ(cells.of(cell).size(), 4U);
   const auto positions = cell_positions(grid, cells, 2);
   for (int p = 0; p < grid.size(); ++p) {
     const cv::Point at = grid.pixels[static_cast<size_t>(p)];
@@ -56,9 +56,9 @@ TEST(MakeCells, CellsAtTheBorderOfTheMaskHoldFewerPixels) {
   mask(0, 0) = 0;
   const PixelGrid grid = make_pixel_grid({5, 5, 10, 10, 2, 2, {}}, mask);
   const DepthCells cells = make_cells(grid, 2);
-  ASSERT_EQ(cells.pixels_of.size(), 9U);
+  ASSERT_EQ(cells.size(), 9);
   const auto size_at = [&](int u, int v) {
-    return cells.pixels_of[static_cast<size_t>(cells.cell_of[static_cast<size_t>(grid.index(v, u))])].size();
+    return cells.of(cells.cell_of[static_cast<size_t>(grid.index(v, u))]).size();
   };
   EXPECT_EQ(size_at(1, 1), 3U);
   EXPECT_EQ(size_at(2, 2), 4U);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "refine/steps/albedo.h"
+#include "refine/steps/residual_draws.h"
 #include "tests/refine/exact_surface.h"
 
 namespace rakelight {
@@ -19,8 +20,10 @@ struct MissedSphere {
   Observations images = test::images_of(state);
 
   MissedSphere() {
-    for (size_t k = 0; k < images.radiance.size(); ++k)
-      images.radiance[k] += 0.02f * std::sin(static_cast<float>(k));
+    test::change_samples(images, [](PlainSamples& samples) {
+      for (size_t k = 0; k < samples.radiance.size(); ++k)
+        samples.radiance[k] += 0.02f * std::sin(static_cast<float>(k));
+    });
     state.albedo = estimate_albedo(images, state);
   }
 };
@@ -39,35 +42,42 @@ Eigen::Matrix3Xf pull_on_normals(const Observations& images, const SurfaceState&
 TEST(Uncertainty, ScaledResidualsPullOnTheNormalsAsChangedImagesDo) {
   const MissedSphere missed;
   const std::vector<float> factor{1.0f, -0.5f, 0.3f, 2.0f, -1.2f};
-  const float t = 0.05f;
+  const float t = 0.3f;  // against the rounding of the samples
   const auto pull_at = [&](float step) {
     Observations images = missed.images;
-    for (int i = 0; i < images.images; ++i) {
-      for (int p = 0; p < images.pixels; ++p) {
-        const Eigen::Vector3f n = missed.state.normals.col(p);
-        const LocalLight light = light_at(missed.state.lamps[static_cast<size_t>(i)],
-                                          missed.state.points.col(p), n, missed.state.scene);
-        const Eigen::Vector3f S = shading(light, n, true);
-        for (int c = 0; c < 3; ++c) {
-          float& I = images.radiance[test::sample_index(images, i, c, p)];
-          I += step * factor[static_cast<size_t>(i)] * (I - missed.state.albedo(c, p) * S[c]);
+    test::change_samples(images, [&](PlainSamples& samples) {
+      for (int i = 0; i < images.images; ++i) {
+        for (int p = 0; p < images.pixels; ++p) {
+          const Eigen::Vector3f n = missed.state.normals.col(p);
+          const LocalLight light = light_at(missed.state.lamps[static_cast<size_t>(i)],
+                                            missed.state.points.col(p), n, missed.state.scene);
+          const Eigen::Vector3f S = shading(light, n, true);
+          for (int c = 0; c < 3; ++c) {
+            float& I = samples.radiance[test::sample_index(images, i, c, p)];
+            I += step * factor[static_cast<size_t>(i)] * (I - missed.state.albedo(c, p) * S[c]);
+          }
         }
       }
-    }
+    });
     SurfaceState state = missed.state;
     state.albedo = estimate_albedo(images, state);
     return pull_on_normals(images, state);
   };
   const Eigen::Matrix3Xf difference = (pull_at(t) - pull_at(-t)) / (2 * t);
-  EXPECT_TRUE(h_of_scaled_residuals(missed.images, missed.state, factor).isApprox(difference, 5e-3f));
+  DrawFactors factors = DrawFactors::Zero(missed.images.images, kDrawsAtATime);
+  for (size_t i = 0; i < factor.size(); ++i) factors(static_cast<Eigen::Index>(i), 3) = factor[i];
+  const std::vector<DrawnPulls> pulls = pulls_of_scaled_residuals(missed.images, missed.state, factors);
+  Eigen::Matrix3Xf found(3, missed.images.pixels);
+  for (int p = 0; p < missed.images.pixels; ++p) found.col(p) = pulls[static_cast<size_t>(p)].col(3);
+  EXPECT_TRUE(found.isApprox(difference, 5e-3f));
 }
 
 /// Depth that nothing but the sensor holds.
 struct SensorAlone {
   MissedSphere missed;
   CornerList corners = make_corners(missed.sphere.grid, Stencil::symmetric);
-  std::vector<PhotometricTensor> tensors = std::vector<PhotometricTensor>(missed.sphere.grid.pixels.size());
-  std::vector<std::array<float, 4>> weights{tensors.size(), std::array<float, 4>{0.25f, 0.25f, 0.25f, 0.25f}};
+  PhotometricTensors tensors = PhotometricTensors(missed.sphere.grid.pixels.size());
+  CornerWeights weights = CornerWeights(tensors.size());
   DepthPrior prior;
 
   explicit SensorAlone(double deviation) {
@@ -81,11 +91,37 @@ struct SensorAlone {
   }
 
   Uncertainty estimate(int draws) {
-    const auto solver = make_cholesky_depth_solver(missed.sphere.grid, prior.cells);
     return estimate_uncertainty({missed.sphere.grid, corners, tensors, weights, prior}, 1, missed.images,
-                                missed.state, *solver, draws);
+                                missed.state, draws);
   }
 };
+
+TEST(Uncertainty, PullsOnNormalsBecomeTheRightHandSideThatTheDepthStepMakesOfThem) {
+  SensorAlone at(0.002);
+  const int pixels = at.missed.sphere.grid.size();
+  for (int p = 0; p < pixels; ++p)
+    for (int k = 0; k < kCorners; ++k)
+      if (at.corners.has(p, k))
+        at.weights[static_cast<size_t>(p)][static_cast<size_t>(k)] = 0.1f + 0.05f * static_cast<float>(k);
+  std::vector<DrawnPulls> pulls(static_cast<size_t>(pixels));
+  PhotometricTensors pulled = at.tensors;
+  for (int p = 0; p < pixels; ++p) {
+    const auto k = static_cast<size_t>(p);
+    pulls[k] = DrawnPulls::Random();
+    PhotometricTensor e = at.tensors[k];
+    e.h += pulls[k].col(5);
+    pulled.set(k, e);
+  }
+  const auto rhs = [&](const PhotometricTensors& tensors) {
+    return depth_system({at.missed.sphere.grid, at.corners, tensors, at.weights, at.prior},
+                        at.missed.state.zeta, Linearization::gauss_newton)
+        .rhs;
+  };
+  const Eigen::VectorXd expected = rhs(pulled) - rhs(at.tensors);
+  EXPECT_GT(expected.norm(), 1);
+  const DepthProblem depth{at.missed.sphere.grid, at.corners, at.tensors, at.weights, at.prior};
+  EXPECT_TRUE(right_hand_sides(depth, at.missed.state.zeta, pulls).col(5).isApprox(expected, 1e-4));
+}
 
 TEST(Uncertainty, OfDepthThatOnlyTheSensorHoldsIsTheSensorsError) {
   const double deviation = 0.002;

@@ -118,7 +118,8 @@ TEST(VirtualScene, AtTheReferenceExposureFewPixelsClipUnderALampAndTheObjectIsNo
 TEST(VirtualScene, ALampWithAPositionIsNearAndTheOthersStandApart) {
   VirtualSensorSetup setup = small_setup();
   setup.lamps[1].position_m = Eigen::Vector3d(0.3, -0.2, 0.2);
-  const GroundTruth truth = VirtualScene(setup).truth({80, 60});
+  const VirtualScene scene(setup);
+  const GroundTruth truth = scene.truth(scene.render_color({80, 60}));
   ASSERT_EQ(truth.lamps.size(), 3u);
   EXPECT_FALSE(truth.lamps[0].near);
   EXPECT_TRUE(truth.lamps[1].near);
@@ -129,11 +130,12 @@ TEST(VirtualScene, ALampWithAPositionIsNearAndTheOthersStandApart) {
 
 TEST(VirtualScene, DepthFramesSeeTheSurfaceAndDifferByNoise) {
   const VirtualScene scene(small_setup());
-  const auto frames = scene.sense_depth({80, 60}, 2);
-  const GroundTruth truth = scene.truth({80, 60});
-  const double middle = frames[0](30, 40) * scene.options().depth.unit_m;
+  const DepthSensor sensor = scene.depth_sensor({80, 60});
+  const GroundTruth truth = scene.truth(scene.render_color({80, 60}));
+  const double middle = sensor.frame(0)(30, 40) * scene.options().depth.unit_m;
   EXPECT_NEAR(middle, static_cast<double>(truth.depth(30, 40)), 0.03);
-  EXPECT_GT(cv::norm(frames[0], frames[1], cv::NORM_L1), 0);
+  EXPECT_GT(cv::norm(sensor.frame(0), sensor.frame(1), cv::NORM_L1), 0);
+  EXPECT_EQ(cv::norm(sensor.frame(1), sensor.frame(1), cv::NORM_L1), 0);
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/kernels/image_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "refine/kernels/deinterleave.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "refine/kernels/vector3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rakelight::kernels {
+namespace HWY_NAMESPACE {
+
+void deinterleave3(const float* triples, int count, TileRow (&rows)[3]) {
+  const D d;
+  int k = 0;
+  for (; k + lanes() <= count; k += lanes()) {
+    Vector3 v;
+    hn::LoadInterleaved3(d, triples + 3 * k, v.x, v.y, v.z);
+    hn::Store(v.x, d, rows[0].at + k);
+    hn::Store(v.y, d, rows[1].at + k);
+    hn::Store(v.z, d, rows[2].at + k);
+  }
+  for (; k < count; ++k)
+    for (int c = 0; c < 3; ++c) rows[c].at[k] = triples[3 * k + c];
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rakelight::kernels
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rakelight::kernels {
+HWY_EXPORT(deinterleave3);
+
+void deinterleave3(const float* triples, int count, TileRow (&rows)[3]) {
+  HWY_DYNAMIC_DISPATCH(deinterleave3)(triples, count, rows);
+}
+
+}  // namespace rakelight::kernels
+#endif

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "refine/steps/photometric_tensor.h"
+
+#include <algorithm>
+
+#include "refine/kernels/image_kernels.h"
+#include "refine/pixel_blocks.h"
+#include "refine/tiles.h"
+
+namespace rakelight {
+namespace {
+
+constexpr size_t kPadding = 64;  // floats a vector kernel may read past the last pixel
+
+void store(const kernels::TileTensors& tile, int begin, int count, PhotometricTensors& tensors) {
+  using Part = PhotometricTensors::Part;
+  const auto copy = [&](const kernels::TileRow& row, Part part) {
+    std::copy_n(row.at, count, tensors.part(part) + begin);
+  };
+  copy(tile.xx, Part::xx);
+  copy(tile.xy, Part::xy);
+  copy(tile.xz, Part::xz);
+  copy(tile.yy, Part::yy);
+  copy(tile.yz, Part::yz);
+  copy(tile.zz, Part::zz);
+  copy(tile.hx, Part::hx);
+  copy(tile.hy, Part::hy);
+  copy(tile.hz, Part::hz);
+  copy(tile.e0, Part::e0);
+}
+
+}  // namespace
+
+PhotometricTensors::PhotometricTensors(size_t pixels)
+    : pixels_(pixels), stride_(pixels + kPadding), parts_(kParts * stride_, 0.0f) {}
+
+PhotometricTensor PhotometricTensors::operator[](size_t pixel) const {
+  const auto at = [&](Part which) { return part(which)[pixel]; };
+  PhotometricTensor tensor;
+  tensor.G << at(xx), at(xy), at(xz), at(xy), at(yy), at(yz), at(xz), at(yz), at(zz);
+  tensor.h << at(hx), at(hy), at(hz);
+  tensor.e0 = at(e0);
+  return tensor;
+}
+
+void PhotometricTensors::set(size_t pixel, const PhotometricTensor& tensor) {
+  const Eigen::Matrix3f& G = tensor.G;
+  const float numbers[kParts] = {G(0, 0),     G(0, 1),     G(0, 2),     G(1, 1),     G(1, 2),
+                                 G(2, 2),     tensor.h[0], tensor.h[1], tensor.h[2], tensor.e0};
+  for (size_t k = 0; k < kParts; ++k) parts_[k * stride_ + pixel] = numbers[k];
+}
+
+void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state, PhotometricTensors& tensors) {
+  const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
+  for_each_tile(images, state, [&](Tile& tile) {
+    kernels::TileTensors sums{};
+    kernels::TileRow weight;
+    for (size_t i = 0; i < lamps.size(); ++i) {
+      kernels::TileImage image = tile.image(static_cast<int>(i));
+      kernels::cauchy_weight(tile.surface(), lamps[i], image, static_cast<float>(scale), weight);
+      image.weight = weight.at;
+      kernels::add_tensors(tile.surface(), lamps[i], image, sums);
+      std::copy_n(weight.at, tile.count(),
+                  state.weight.data() + i * static_cast<size_t>(images.pixels) + static_cast<size_t>(tile.begin()));
+    }
+    store(sums, tile.begin(), tile.count(), tensors);
+  });
+}
+
+PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceState& state) {
+  PhotometricTensors tensors(static_cast<size_t>(images.pixels));
+  const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
+  for_each_tile(images, state, [&](Tile& tile) {
+    kernels::TileTensors sums{};
+    for (int i = 0; i < images.images; ++i)
+      kernels::add_tensors(tile.surface(), lamps[static_cast<size_t>(i)], tile.image(i), sums);
+    store(sums, tile.begin(), tile.count(), tensors);
+  });
+  return tensors;
+}
+
+}  // namespace rakelight
