@@ -8,15 +8,12 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
-#include <limits>
 #include <opencv2/core/utility.hpp>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include "refine/multi_light.h"
 #include "refine/refine.h"
 #include "tests/bench/bench_stack.h"
+#include "tests/bench/keep_memory.h"
 #include "tests/bench/stream.h"
 
 namespace rakelight::bench {
@@ -54,9 +51,10 @@ void outer_iterations(benchmark::State& run, Size size, bool robust) {
 }
 
 constexpr Size kVga{"vga_x10", 640, 480, 10}, kSxga{"1280x960_x20", 1280, 960, 20}, kFive{"5Mpx_x10", 2592, 1944, 10};
+constexpr Size kSmall{"50kpx_x10", 256, 192, 10}, kFour{"vga_x4", 640, 480, 4}, kMany{"vga_x96", 640, 480, 96};
 
 void add_benchmarks() {
-  for (const Size& size : {kVga, kSxga, kFive}) {
+  for (const Size& size : {kSmall, kVga, kSxga, kFive, kFour, kMany}) {
     for (const bool robust : {false, true}) {
       benchmark::RegisterBenchmark((std::string(size.name) + (robust ? "/robust" : "/unweighted")).c_str(),
                                    [=](benchmark::State& run) { outer_iterations(run, size, robust); })
@@ -70,10 +68,7 @@ void add_benchmarks() {
 }  // namespace rakelight::bench
 
 int main(int argc, char** argv) {
-#ifdef __GLIBC__  // as the program does
-  mallopt(M_MMAP_THRESHOLD, std::numeric_limits<int>::max());
-  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-#endif
+  rakelight::bench::keep_freed_memory();
   rakelight::bench::add_benchmarks();
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
