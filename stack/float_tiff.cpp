@@ -15,8 +15,8 @@ namespace rakelight {
 namespace fs = std::filesystem;
 namespace {
 
-/// Adobe deflate. OpenCV's default for three float channels is LogLuv: lossy, and without negative values.
-constexpr int kDeflate = 8;
+/// None, said explicitly: OpenCV's default for three float channels is LogLuv, which is lossy and without negative values.
+constexpr int kUncompressed = 1;
 constexpr std::uint64_t kMaxFileBytes = kMaxImagePixels * 12 + (16 << 20);
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& fault) {
@@ -50,7 +50,7 @@ cv::Mat read(const fs::path& file, int type, const ExpectedSize& expected) {
 
 void write(const fs::path& file, const cv::Mat& image) {
   Bytes bytes;
-  if (!cv::imencode(".tiff", image, bytes, {cv::IMWRITE_TIFF_COMPRESSION, kDeflate})) {
+  if (!cv::imencode(".tiff", image, bytes, {cv::IMWRITE_TIFF_COMPRESSION, kUncompressed})) {
     throw IoError("cannot encode " + file.string() + "; its image is empty or too large");
   }
   write_file(file, bytes.data(), bytes.size());
