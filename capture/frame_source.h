@@ -50,7 +50,7 @@ class SensorLost : public DeviceError {
 };
 
 class FrameSource {
-public:
+ public:
   virtual ~FrameSource() = default;
   virtual SourceDescription describe() const = 0;
   virtual void start() = 0;

@@ -36,30 +36,31 @@ struct StreamMode {
 
 /// Faults and habits of the virtual rig, so that a scan can be tried against them.
 struct VirtualRig {
-  std::string scene = "vase";       ///< a scene of `simulate`
-  std::string albedo = "pattern";   ///< a paint of `simulate`
+  std::string scene = "vase";      ///< a scene of `simulate`
+  std::string albedo = "pattern";  ///< a paint of `simulate`
   std::uint64_t seed = 1;
-  double lamp_latency_us = 2000;    ///< from the write to light
-  double lamp_jitter_us = 0;        ///< uniform, on top
+  double lamp_latency_us = 2000;       ///< from the write to light
+  double lamp_jitter_us = 0;           ///< uniform, on top
   double delivery_latency_us = 15000;  ///< from the end of readout to the host
   double delivery_jitter_us = 2000;
-  double drop_share = 0;            ///< share of frames that never arrive
-  int unplug_at_frame = -1;         ///< the sensor vanishes at this colour frame
-  ColorResponse color_response;     ///< how its pixels encode light
-  double crosstalk = 0;             ///< share of a LED's light that leaks into each adjacent channel
-  bool lamps_on_lines = false;      ///< real lines switch the virtual lamps: each is lit while its line reads so
-  bool ignores_exposure = false;    ///< says yes to exposure and gain, and does nothing
+  double drop_share = 0;         ///< share of frames that never arrive
+  int unplug_at_frame = -1;      ///< the sensor vanishes at this colour frame
+  ColorResponse color_response;  ///< how its pixels encode light
+  double crosstalk = 0;          ///< share of a LED's light that leaks into each adjacent channel
+  bool lamps_on_lines = false;   ///< real lines switch the virtual lamps: each is lit while its line reads so
+  bool ignores_exposure = false;                      ///< says yes to exposure and gain, and does nothing
   std::vector<std::string> stuck_on, stuck_off, dim;  ///< lamp ids
   std::vector<std::array<std::string, 2>> swapped;    ///< pairs of lamp ids wired the wrong way round
 };
 
 struct SensorSetup {
-  std::string uri;                   ///< OpenNI2 URI; empty: the first device; "virtual": the virtual rig
+  std::string uri;  ///< OpenNI2 URI; empty: the first device; "virtual": the virtual rig
   StreamMode color, depth;
   double exposure_us = 8000;
   double gain = 100;
-  double readout_us = 30000;         ///< first to last row of the rolling shutter
-  double lamp_jitter_us = 1000;      ///< of the time from write to light; `rakelight calibrate latency` measures it
+  double readout_us = 30000;  ///< first to last row of the rolling shutter
+  double lamp_jitter_us =
+      1000;  ///< of the time from write to light; `rakelight calibrate latency` measures it
 };
 
 struct RigCalibration {
@@ -72,10 +73,10 @@ struct RigCalibration {
 struct Rig {
   std::string name = "virtual";
   SensorSetup sensor;
-  std::vector<RigLamp> lamps;        ///< in the order of the sequence
-  int max_on_ms = 2000;              ///< watchdog
-  int repeats = 1;                   ///< images a lamp
-  bool rgb_shot = false;             ///< one image under the red, green and blue lamps at once
+  std::vector<RigLamp> lamps;  ///< in the order of the sequence
+  int max_on_ms = 2000;        ///< watchdog
+  int repeats = 1;             ///< images a lamp
+  bool rgb_shot = false;       ///< one image under the red, green and blue lamps at once
   RigCalibration calibration;
   std::optional<VirtualRig> virtual_rig;  ///< set: sensor and lamps are virtual
 };

@@ -126,12 +126,14 @@ bool has(const std::vector<Output>& outputs, Output output) {
   return std::find(outputs.begin(), outputs.end(), output) != outputs.end();
 }
 
-void print_report(const RefineResult& result, const std::filesystem::path& folder, const std::vector<Output>& outputs) {
+void print_report(const RefineResult& result, const std::filesystem::path& folder,
+                  const std::vector<Output>& outputs) {
   std::cout << result.message << "\n"
             << folder.string() << ": " << result.camera.width << "x" << result.camera.height << " (scale "
             << result.scale << "), " << result.iterations.size() << " iterations\n";
   if (has(outputs, Output::mesh)) std::cout << "  surface  " << (folder / "mesh.ply").string() << "\n";
-  if (has(outputs, Output::pictures)) std::cout << "  picture  " << (folder / "before_after.png").string() << "\n";
+  if (has(outputs, Output::pictures))
+    std::cout << "  picture  " << (folder / "before_after.png").string() << "\n";
   if (has(outputs, Output::report)) std::cout << "  report   " << (folder / "report.html").string() << "\n";
 }
 

@@ -14,7 +14,8 @@ namespace rakelight {
 /// A line, held while a copy of this lives. Both throw std::system_error.
 struct OutputLine {
   std::function<void(bool lit)> set;
-  std::function<bool()> get;  ///< the level that the chip tells, which is another than was set if the line is stuck
+  std::function<bool()>
+      get;  ///< the level that the chip tells, which is another than was set if the line is stuck
 };
 
 /// One request a line: adapters on USB change lines one by one anyway, and a line is written without its neighbours.

@@ -36,7 +36,8 @@ ErrorMaps error_maps(const Camera& camera, const cv::Mat1f& depth, const GroundT
 
 /// How honest a result's error bars are: the share of errors inside one standard deviation, 0.68 for perfect ones.
 struct ErrorBarReport {
-  double depth_within = 0;   ///< depth errors, their median removed: the mean is that of a few pixels at occlusions
+  double depth_within =
+      0;  ///< depth errors, their median removed: the mean is that of a few pixels at occlusions
   double normal_within = 0;  ///< angles between the result's normals and the true ones
 };
 

@@ -65,8 +65,12 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
   for (int t = 1; solved && t <= options.max_iterations; ++t) {
     IterationReport report;
     report.index = t;
-    GradientProblem depth{problem.grid, problem.corners, shading_rows(problem.grid, problem.corners, lamp, rho, I - beta, z, k),
-                          options.depth.sensor_weight, z0, smoothness};
+    GradientProblem depth{problem.grid,
+                          problem.corners,
+                          shading_rows(problem.grid, problem.corners, lamp, rho, I - beta, z, k),
+                          options.depth.sensor_weight,
+                          z0,
+                          smoothness};
     report.energy_before_depth = gradient_energy(depth, z);
     if (t == 1) best = report.energy_before_depth;
     Eigen::VectorXd next = z;
@@ -78,7 +82,8 @@ MethodResult refine_fusion_as_printed(const RefineProblem& problem, const Refine
         1e3 * model.unit_m * std::sqrt((next - z).squaredNorm() / static_cast<double>(z.size()));
     report.sensor_weight = options.depth.sensor_weight;
     result.iterations.push_back(report);
-    after_iteration(t, static_cast<double>(t) / options.max_iterations, (model.unit_m * next).array().log().matrix());
+    after_iteration(t, static_cast<double>(t) / options.max_iterations,
+                    (model.unit_m * next).array().log().matrix());
     if (report.energy >= best) {  // Alg. 1, line 4
       result.termination = Termination::converged;
       result.message = "stopped as Alg. 1 does: its energy no longer fell at iteration " + std::to_string(t) +

@@ -25,14 +25,14 @@ namespace rakelight {
 /// Light of one image; matrices have a row a channel (R, G, B).
 struct Lamp {
   bool near = false;
-  Eigen::Vector3f phi = Eigen::Vector3f::Zero();             ///< ambient share a channel
-  Eigen::Matrix3f l = Eigen::Matrix3f::Zero();               ///< far: light vector a channel
-  bool second_order = false;                                 ///< far: whether Q counts
+  Eigen::Vector3f phi = Eigen::Vector3f::Zero();  ///< ambient share a channel
+  Eigen::Matrix3f l = Eigen::Matrix3f::Zero();    ///< far: light vector a channel
+  bool second_order = false;                      ///< far: whether Q counts
   std::array<Eigen::Matrix3f, 3> Q{Eigen::Matrix3f::Zero(), Eigen::Matrix3f::Zero(),
                                    Eigen::Matrix3f::Zero()};  ///< far: second-order harmonics a channel
-  Eigen::Vector3f direction = Eigen::Vector3f(0, 0, -1);     ///< near: d, unit, from the object to the lamp
-  float inverse_distance = 0;                                ///< near: kappa, 1/m
-  Eigen::Vector3f strength = Eigen::Vector3f::Zero();        ///< near: e a channel
+  Eigen::Vector3f direction = Eigen::Vector3f(0, 0, -1);      ///< near: d, unit, from the object to the lamp
+  float inverse_distance = 0;                                 ///< near: kappa, 1/m
+  Eigen::Vector3f strength = Eigen::Vector3f::Zero();         ///< near: e a channel
 };
 
 /// Light at one point: S_c = max(0, l.row(c) . n) + phi_c.

@@ -25,7 +25,8 @@ double rms_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after
   const double sum = sum_over_blocks(static_cast<int>(before.size()), 0.0, [&](int begin, int end) {
     const auto first = before.segment(begin, end - begin), last = after.segment(begin, end - begin);
     const Eigen::ArrayXf middle = (0.5 * (first + last)).cast<float>(), turn = (last - first).cast<float>();
-    const auto part = static_cast<double>((middle.exp() * turn).square().sum());  // z'' - z' = z (zeta'' - zeta') + O(cube)
+    const auto part =
+        static_cast<double>((middle.exp() * turn).square().sum());  // z'' - z' = z (zeta'' - zeta') + O(cube)
     return part;
   });
   return 1e3 * std::sqrt(sum / static_cast<double>(before.size()));

@@ -20,15 +20,16 @@ struct MethodResult {
   SurfaceState state;
   std::vector<IterationReport> iterations;
   Termination termination = Termination::max_iterations;
-  std::string message;                   ///< one sentence on how it ended
+  std::string message;  ///< one sentence on how it ended
   std::vector<std::string> warnings;
-  std::map<std::string, double> quality; ///< named measures
-  Uncertainty uncertainty;               ///< empty where the method gives none
+  std::map<std::string, double> quality;          ///< named measures
+  Uncertainty uncertainty;                        ///< empty where the method gives none
   std::vector<LampUncertainty> lamp_uncertainty;  ///< [image]; empty where all lamps are far
 };
 
 /// Called after each outer iteration with its number, the share done and log z [pixel] (m); throws Cancelled to stop.
-using IterationCallback = std::function<void(int iteration, double fraction_done, const Eigen::VectorXd& zeta)>;
+using IterationCallback =
+    std::function<void(int iteration, double fraction_done, const Eigen::VectorXd& zeta)>;
 
 /// The state every method starts from: the sensor's shape, white, every usable sample trusted, no lamps yet.
 SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& options);

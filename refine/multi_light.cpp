@@ -108,7 +108,8 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   for (int t = 1; t <= options.max_iterations; ++t) {
     IterationReport report;
     report.index = t;
-    const Eigen::VectorXd before = state.zeta;  // the lamps carry the broad shape along, which may undo a depth step
+    const Eigen::VectorXd before =
+        state.zeta;  // the lamps carry the broad shape along, which may undo a depth step
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
     state.points = surface_points(problem.grid, state.zeta);
 
@@ -119,8 +120,8 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     normalize_albedo(state);
     report.residual_scale = std::max(residual_scale(matt, state), model_error);
     if (options.trust.cauchy_scale > 0)
-      reweigh_and_accumulate(matt, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale, state,
-                             tensors);
+      reweigh_and_accumulate(matt, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale,
+                             state, tensors);
     else
       tensors = accumulate_tensors(matt, state);
 
@@ -158,9 +159,9 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   state.points = surface_points(problem.grid, state.zeta);
   result.message += "; " + lamps.explanation();
   result.lamp_uncertainty = lamps.positions(problem, prior, state);
-  result.uncertainty =
-      estimate_uncertainty({problem.grid, problem.corners, tensors, weights, prior}, problem.scale, lamps.matt_images(images), state,
-                           result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
+  result.uncertainty = estimate_uncertainty(
+      {problem.grid, problem.corners, tensors, weights, prior}, problem.scale, lamps.matt_images(images),
+      state, result.termination == Termination::diverged ? 0 : options.uncertainty_samples);
   result.quality["far_over_near_residual"] = lamps.far_over_near();
   result.quality["image_noise"] = noise.image;
   result.quality["depth_noise_log"] = noise.depth;

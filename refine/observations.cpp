@@ -25,8 +25,8 @@ class ColorSampler {
       : full_(color_camera.size()), size_(grid_camera.size()) {
     if (color_camera.distortion.empty()) return;
     const cv::Matx33d K = intrinsic_matrix(color_camera);
-    cv::initUndistortRectifyMap(K, color_camera.distortion, cv::noArray(), K, color_camera.size(), CV_32FC1, map_x_,
-                                map_y_);
+    cv::initUndistortRectifyMap(K, color_camera.distortion, cv::noArray(), K, color_camera.size(), CV_32FC1,
+                                map_x_, map_y_);
   }
 
   /// The part of the full-size image that a part of the grid is sampled from: that part where pixels stay where they are,
@@ -57,7 +57,10 @@ cv::Mat3f ambient_image(const LightStack& stack) {
   for (const Frame& frame : stack.frames) {
     if (frame.light || frame.color.empty()) continue;
     const cv::Mat3f dark = linear_color(stack, frame);
-    if (sum.empty()) sum = dark; else sum += dark;
+    if (sum.empty())
+      sum = dark;
+    else
+      sum += dark;
     ++count;
   }
   return sum.empty() ? sum : cv::Mat3f(sum / count);
@@ -66,13 +69,14 @@ cv::Mat3f ambient_image(const LightStack& stack) {
 const Light& light_of(const LightStack& stack, const Frame& frame) {
   for (const Light& light : stack.lights)
     if (light.id == *frame.light) return light;
-  throw InputError(stack.origin, "frame " + std::to_string(frame.index) + " names the unknown light " + *frame.light,
+  throw InputError(stack.origin,
+                   "frame " + std::to_string(frame.index) + " names the unknown light " + *frame.light,
                    "list it under lights");
 }
 
 /// Colour of the grid's pixels as an image's samples. @param origin of the images on the grid's camera
-void set_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& clipped, cv::Point origin, int image,
-               Observations& out) {
+void set_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& clipped, cv::Point origin,
+               int image, Observations& out) {
   std::vector<float> radiance(static_cast<size_t>(grid.size()));
   std::vector<unsigned char> usable(radiance.size());
   for (int c = 0; c < 3; ++c) {
@@ -89,7 +93,8 @@ void set_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& c
 Observations::Observations(int pixel_count, int image_count)
     : pixels(pixel_count),
       images(image_count),
-      codes_(3 * static_cast<size_t>(image_count) * static_cast<size_t>(pixel_count), ChannelSamples::kUnusable),
+      codes_(3 * static_cast<size_t>(image_count) * static_cast<size_t>(pixel_count),
+             ChannelSamples::kUnusable),
       encoding_(3 * static_cast<size_t>(image_count)) {}
 
 void Observations::set_channel(int image, int channel, const float* radiance, const unsigned char* usable) {
@@ -109,7 +114,8 @@ void Observations::set_channel(int image, int channel, const float* radiance, co
   encoding_[at] = {(most - least) / kSteps, least};
   const float per_step = most > least ? kSteps / (most - least) : 0;
   for (int p = 0; p < pixels; ++p) {
-    const auto code = static_cast<std::uint16_t>(std::min(kSteps, std::max(0.0f, (radiance[p] - least) * per_step)) + 0.5f);
+    const auto code =
+        static_cast<std::uint16_t>(std::min(kSteps, std::max(0.0f, (radiance[p] - least) * per_step)) + 0.5f);
     codes[p] = usable[p] != 0 ? code : ChannelSamples::kUnusable;
   }
 }
@@ -181,7 +187,8 @@ Observations observe(const LightStack& stack, const PixelGrid& grid) {
       if (!ambient.empty()) color -= ambient(needed);
       cv::Mat3b clipped = saturated_channels(frame);
       if (!stack.color_crosstalk.isIdentity()) cv::merge(std::vector<cv::Mat>(3, saturated(frame)), clipped);
-      set_image(grid, sample(color), sample(clipped), needed.size() == grid.box.size() ? needed.tl() : cv::Point(), i, out);
+      set_image(grid, sample(color), sample(clipped),
+                needed.size() == grid.box.size() ? needed.tl() : cv::Point(), i, out);
     }
   });
   return out;

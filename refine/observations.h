@@ -20,7 +20,8 @@ class ChannelSamples {
   /// The code of a sample that is clipped or missing. It reads as just above the brightest that can be used.
   static constexpr std::uint16_t kUnusable = 0xFFFF;
 
-  ChannelSamples(const std::uint16_t* codes, float step, float least) : codes_(codes), step_(step), least_(least) {}
+  ChannelSamples(const std::uint16_t* codes, float step, float least)
+      : codes_(codes), step_(step), least_(least) {}
 
   float operator[](int pixel) const { return least_ + step_ * static_cast<float>(codes_[pixel]); }
   bool usable(int pixel) const { return codes_[pixel] != kUnusable; }
@@ -47,9 +48,9 @@ class Observations {
  public:
   int pixels = 0;
   int images = 0;
-  std::vector<std::string> light_ids; ///< [image]
-  std::vector<int> frame_index;       ///< [image]
-  std::vector<bool> colored_lamps;    ///< [image] red, green and blue lamps at once
+  std::vector<std::string> light_ids;                          ///< [image]
+  std::vector<int> frame_index;                                ///< [image]
+  std::vector<bool> colored_lamps;                             ///< [image] red, green and blue lamps at once
   std::vector<std::optional<Eigen::Vector3d>> lamp_positions;  ///< [image] where the stack gives one, metres
 
   Observations() = default;

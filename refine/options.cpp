@@ -46,7 +46,8 @@ RefineOptions preset_options(Preset preset, Method method) {
   }
   options.max_iterations = 20;
   options.min_iterations = 2;
-  options.tolerance = 0.04;  // the paper names no epsilon; its depth's error rises again some iterations later
+  options.tolerance =
+      0.04;  // the paper names no epsilon; its depth's error rises again some iterations later
   options.lamps.model = LampModel::far;
   options.trust.attached_shadows = false;
   options.trust.model_error = 0;
@@ -63,10 +64,14 @@ RefineOptions preset_options(Preset preset, Method method) {
 
 std::string to_string(Method method) {
   switch (method) {
-    case Method::multi_light: return "multi-light";
-    case Method::rgb_ratio: return "rgb-ratio";
-    case Method::fusion_like: return "fusion-like";
-    case Method::rgbd_fusion: return "rgbd-fusion";
+    case Method::multi_light:
+      return "multi-light";
+    case Method::rgb_ratio:
+      return "rgb-ratio";
+    case Method::fusion_like:
+      return "fusion-like";
+    case Method::rgbd_fusion:
+      return "rgbd-fusion";
   }
   return "unknown";
 }
@@ -83,18 +88,24 @@ std::string to_string(Solver solver) { return solver == Solver::multigrid ? "mul
 
 std::string to_string(LampModel model) {
   switch (model) {
-    case LampModel::automatic: return "auto";
-    case LampModel::far: return "far";
-    case LampModel::near: return "near";
+    case LampModel::automatic:
+      return "auto";
+    case LampModel::far:
+      return "far";
+    case LampModel::near:
+      return "near";
   }
   return "unknown";
 }
 
 std::string to_string(LampPositions positions) {
   switch (positions) {
-    case LampPositions::estimated: return "estimated";
-    case LampPositions::start: return "start";
-    case LampPositions::fixed: return "fixed";
+    case LampPositions::estimated:
+      return "estimated";
+    case LampPositions::start:
+      return "start";
+    case LampPositions::fixed:
+      return "fixed";
   }
   return "unknown";
 }

@@ -100,8 +100,9 @@ struct DepthOptions {
 struct RefineOptions {
   Method method = Method::multi_light;
   Preset preset = Preset::robust;
-  int frame = -1;           ///< single-image methods: index of the frame to use; -1: the first that fits
-  bool estimate_response = false;  ///< find what colour values mean from the images (refine/response_estimate.h)
+  int frame = -1;  ///< single-image methods: index of the frame to use; -1: the first that fits
+  bool estimate_response =
+      false;                ///< find what colour values mean from the images (refine/response_estimate.h)
   int scale = 0;            ///< refined grid / depth grid, 1 to 4; 0: as fine as the colour images are
   int max_iterations = 40;  ///< outer iterations
   int min_iterations = 14;  ///< robust: no stop before the lamp model is chosen and has taken effect

@@ -28,7 +28,8 @@ void for_each_block(int count, const Body& body) {
 template <class Sum, class Body>
 Sum sum_over_blocks(int count, Sum zero, const Body& body) {
   std::vector<Sum> parts(static_cast<size_t>((count + kPixelBlock - 1) / kPixelBlock), zero);
-  for_each_block(count, [&](int begin, int end) { parts[static_cast<size_t>(begin / kPixelBlock)] = body(begin, end); });
+  for_each_block(
+      count, [&](int begin, int end) { parts[static_cast<size_t>(begin / kPixelBlock)] = body(begin, end); });
   for (const Sum& part : parts) zero += part;
   return zero;
 }

@@ -54,13 +54,15 @@ PixelGrid make_pixel_grid(const Camera& camera, const cv::Mat1b& mask) {
 
 Eigen::VectorXd gather(const PixelGrid& grid, const cv::Mat1f& image) {
   Eigen::VectorXd values(grid.size());
-  for (int p = 0; p < grid.size(); ++p) values[p] = static_cast<double>(image(grid.pixels[static_cast<size_t>(p)]));
+  for (int p = 0; p < grid.size(); ++p)
+    values[p] = static_cast<double>(image(grid.pixels[static_cast<size_t>(p)]));
   return values;
 }
 
 cv::Mat1f scatter(const PixelGrid& grid, const Eigen::VectorXd& values, float outside) {
   cv::Mat1f image(grid.index.size(), outside);
-  for (int p = 0; p < grid.size(); ++p) image(grid.pixels[static_cast<size_t>(p)]) = static_cast<float>(values[p]);
+  for (int p = 0; p < grid.size(); ++p)
+    image(grid.pixels[static_cast<size_t>(p)]) = static_cast<float>(values[p]);
   return image;
 }
 

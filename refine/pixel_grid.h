@@ -23,13 +23,13 @@ struct PixelRun {
 /// Pixels of the mask in row-major order, with their neighbours inside the mask.
 struct PixelGrid {
   Camera camera;
-  cv::Mat1i index;                               ///< number of a pixel, -1 outside the mask
-  std::vector<cv::Point> pixels;                 ///< (u, v) of each number
-  std::array<std::vector<int>, 4> neighbor;      ///< by Neighbor: number of the neighbour, -1 if outside
+  cv::Mat1i index;                           ///< number of a pixel, -1 outside the mask
+  std::vector<cv::Point> pixels;             ///< (u, v) of each number
+  std::array<std::vector<int>, 4> neighbor;  ///< by Neighbor: number of the neighbour, -1 if outside
 
-  cv::Rect box;                                  ///< bounds of the mask
-  std::vector<PixelRun> runs;                    ///< all pixels, row by row
-  std::vector<int> first_run;                    ///< [row of the box]: its first run; one more at the end
+  cv::Rect box;                ///< bounds of the mask
+  std::vector<PixelRun> runs;  ///< all pixels, row by row
+  std::vector<int> first_run;  ///< [row of the box]: its first run; one more at the end
 
   int size() const { return static_cast<int>(pixels.size()); }
 };

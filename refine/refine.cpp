@@ -148,12 +148,17 @@ std::string select_images(const LightStack& stack, const RefineOptions& options,
   return "; " + chosen.explanation;
 }
 
-MethodResult run_method(const RefineProblem& problem, const RefineOptions& options, const IterationCallback& callback) {
+MethodResult run_method(const RefineProblem& problem, const RefineOptions& options,
+                        const IterationCallback& callback) {
   switch (options.method) {
-    case Method::multi_light: return refine_multi_light(problem, options, callback);
-    case Method::rgb_ratio: return refine_rgb_ratio(problem, options, callback);
-    case Method::fusion_like: return refine_fusion_like(problem, options, callback);
-    case Method::rgbd_fusion: return refine_rgbd_fusion(problem, options, callback);
+    case Method::multi_light:
+      return refine_multi_light(problem, options, callback);
+    case Method::rgb_ratio:
+      return refine_rgb_ratio(problem, options, callback);
+    case Method::fusion_like:
+      return refine_fusion_like(problem, options, callback);
+    case Method::rgbd_fusion:
+      return refine_rgbd_fusion(problem, options, callback);
   }
   throw UsageError("unknown method");
 }
@@ -164,7 +169,8 @@ struct Decoding {
   std::optional<ResponseEstimate> estimate;
 };
 
-Decoding decide_response(const LightStack& stack, const RefineOptions& options, const ProgressCallback& progress) {
+Decoding decide_response(const LightStack& stack, const RefineOptions& options,
+                         const ProgressCallback& progress) {
   if (!options.estimate_response) return {stack, {}};
   Decoding decoding{stack, estimate_response(stack, options, [&](double fraction) {
                       report(progress, "finding the colour response", kPreparation * fraction, 0);
@@ -184,7 +190,8 @@ void note_response(const Decoding& decoding, RefineResult& result) {
 
 }  // namespace
 
-RefineResult refine_depth(const LightStack& recorded, const RefineOptions& options, const ProgressCallback& progress) {
+RefineResult refine_depth(const LightStack& recorded, const RefineOptions& options,
+                          const ProgressCallback& progress) {
   const ThreadCount threads(options.threads);
   check_harmonics(options.lamps);
   report(progress, "preparing", 0.0, 0);

@@ -38,14 +38,15 @@ struct IterationReport {
   double residual_scale = 0;       ///< robust standard deviation of the photometric residual, linear radiance
   int backtracks = 0;              ///< halvings the depth step needed
   double sensor_weight = 0;        ///< lambda_z used, on log z
-  double seconds = 0;              ///< wall time; filled in by a caller who has a clock: the engine reads none
+  double seconds = 0;  ///< wall time; filled in by a caller who has a clock: the engine reads none
 };
 
 /// Light of one image, camera coordinates: S_c = l_c . n + phi_c at the object's centre.
 struct LightEstimate {
   std::string id;
   int frame_index = 0;
-  Eigen::Matrix<double, 3, 4> sh_rgb = Eigen::Matrix<double, 3, 4>::Zero();  ///< row c (R, G, B): l_x, l_y, l_z, phi
+  Eigen::Matrix<double, 3, 4> sh_rgb =
+      Eigen::Matrix<double, 3, 4>::Zero();  ///< row c (R, G, B): l_x, l_y, l_z, phi
   /// With --harmonics 2, row c: Q_xx, Q_yy, Q_xy, Q_xz, Q_yz of the term n' Q n, whose trace is 0.
   std::optional<Eigen::Matrix<double, 3, 5>> second_order_rgb;
   std::optional<Eigen::Vector3d> position_m;  ///< of a near lamp (refine/lamp.h)
@@ -54,24 +55,25 @@ struct LightEstimate {
 };
 
 struct RefineResult {
-  Camera camera;           ///< of the refined grid
-  int scale = 1;           ///< refined grid / depth grid
-  cv::Mat1f depth;         ///< metres, NaN where there is no surface
-  cv::Mat1f initial_depth; ///< the preprocessed sensor depth on the same grid, metres, NaN outside
-  cv::Mat3f normals;       ///< camera frame, unit length, n_z < 0; NaN outside
-  cv::Mat3f albedo;        ///< linear RGB, mean 1 a channel over the surface; NaN outside
-  cv::Mat3f uncertainty;   ///< one standard deviation of depth (m), of the normal (rad), and the number of images that
-                           ///< light the pixel; NaN outside; empty where the method gives none
-  cv::Mat1b inpainted;     ///< 255 where the sensor gave no depth and the start was filled in
+  Camera camera;            ///< of the refined grid
+  int scale = 1;            ///< refined grid / depth grid
+  cv::Mat1f depth;          ///< metres, NaN where there is no surface
+  cv::Mat1f initial_depth;  ///< the preprocessed sensor depth on the same grid, metres, NaN outside
+  cv::Mat3f normals;        ///< camera frame, unit length, n_z < 0; NaN outside
+  cv::Mat3f albedo;         ///< linear RGB, mean 1 a channel over the surface; NaN outside
+  cv::Mat3f
+      uncertainty;  ///< one standard deviation of depth (m), of the normal (rad), and the number of images that
+                    ///< light the pixel; NaN outside; empty where the method gives none
+  cv::Mat1b inpainted;  ///< 255 where the sensor gave no depth and the start was filled in
   std::vector<LightEstimate> lights;
   std::vector<IterationReport> iterations;
   Termination termination = Termination::max_iterations;
-  std::string message;                   ///< one sentence on how it ended
-  std::vector<std::string> warnings;     ///< one sentence each
-  std::map<std::string, double> quality; ///< named measures, e.g. "coverage", "image_noise", "depth_noise_m"
-  ColorResponse color_response;          ///< what colour values were taken to mean
+  std::string message;                    ///< one sentence on how it ended
+  std::vector<std::string> warnings;      ///< one sentence each
+  std::map<std::string, double> quality;  ///< named measures, e.g. "coverage", "image_noise", "depth_noise_m"
+  ColorResponse color_response;           ///< what colour values were taken to mean
   std::optional<ResponseEstimate> response_estimate;  ///< with RefineOptions::estimate_response
-  RefineOptions options;                 ///< every parameter used, resolved
+  RefineOptions options;                              ///< every parameter used, resolved
 };
 
 /// A surface on its way, on the refined grid.
@@ -82,10 +84,11 @@ struct SurfaceSoFar {
 
 /// Where the work stands; return false to cancel (refine_depth then throws Cancelled).
 struct Progress {
-  std::string stage;        ///< e.g. "depth step"
-  double fraction_done = 0; ///< of the whole, 0 to 1
-  int iteration = 0;        ///< outer iterations done
-  std::function<SurfaceSoFar()> surface = {};  ///< makes it, inside the callback only; empty before the first iteration
+  std::string stage;         ///< e.g. "depth step"
+  double fraction_done = 0;  ///< of the whole, 0 to 1
+  int iteration = 0;         ///< outer iterations done
+  std::function<SurfaceSoFar()> surface =
+      {};  ///< makes it, inside the callback only; empty before the first iteration
 };
 using ProgressCallback = std::function<bool(const Progress&)>;
 

@@ -65,7 +65,8 @@ class Search {
       : stack_(stack), progress_(progress) {
     RefineOptions at_depth = options;
     at_depth.scale = 1;
-    at_depth.lamps.harmonics = 1;  // its own light model is fitted to few, steep samples: the first order does
+    at_depth.lamps.harmonics =
+        1;  // its own light model is fitted to few, steep samples: the first order does
     problem_ = make_problem(stack, at_depth);
   }
 

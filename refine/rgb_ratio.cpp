@@ -81,8 +81,12 @@ MethodResult ratio_as_printed(const RefineProblem& problem, const RefineOptions&
     report.index = t;
     if (!(solved = diffuse(problem, options.albedo, state))) break;  // Eq. (20)
     normalize_albedo(state);
-    GradientProblem depth{problem.grid, problem.corners, ratio_rows(problem.grid, problem.images, state),
-                          options.depth.sensor_weight, problem.prior.start, smoothness};
+    GradientProblem depth{problem.grid,
+                          problem.corners,
+                          ratio_rows(problem.grid, problem.images, state),
+                          options.depth.sensor_weight,
+                          problem.prior.start,
+                          smoothness};
     report.energy_before_depth =
         gradient_energy(depth, state.zeta) + photometric_energy(problem.images, state);
     const Eigen::VectorXd before = state.zeta;

@@ -9,7 +9,8 @@ namespace rakelight {
 
 MethodResult refine_rgbd_fusion(const RefineProblem& problem, const RefineOptions& options,
                                 const IterationCallback& after_iteration) {
-  if (options.preset == Preset::robust) return refine_by_shading(problem, options, ImageLight::white, after_iteration);
+  if (options.preset == Preset::robust)
+    return refine_by_shading(problem, options, ImageLight::white, after_iteration);
   FusionModel model;
   model.unit_m = 1e-3;  // Table I's .004 and .0075 mean millimetres
   model.slope_smoothness = false;

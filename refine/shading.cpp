@@ -10,12 +10,12 @@
 #include "refine/steps/albedo.h"
 #include "refine/steps/albedo_smooth.h"
 #include "refine/steps/curvature_prior.h"
+#include "refine/steps/depth_step.h"
 #include "refine/steps/lighting.h"
 #include "refine/steps/noise.h"
 #include "refine/steps/robust_weights.h"
 #include "refine/steps/sensor_bound.h"
 #include "refine/steps/smoothness_choice.h"
-#include "refine/steps/depth_step.h"
 #include "stack/errors.h"
 
 namespace rakelight {
@@ -29,8 +29,8 @@ constexpr double kSensorCorrelation = 2;
 // The same of the model's own error, which is alike all over a block of 4 x 4.
 constexpr double kModelCorrelation = 4;
 constexpr double kDepthTolerance = 1e-2;  // of a step's system: the next iteration takes up what is left
-constexpr double kFloorPer = 100;       // the lambda_z that options.depth.floor goes with
-constexpr float kDarkAlbedo = 0.05f;  // of the mean: below, I / rho says nothing
+constexpr double kFloorPer = 100;         // the lambda_z that options.depth.floor goes with
+constexpr float kDarkAlbedo = 0.05f;      // of the mean: below, I / rho says nothing
 
 /// Normals averaged over their surroundings inside the mask.
 Eigen::Matrix3Xf smoothed(const PixelGrid& grid, const Eigen::Matrix3Xf& normals) {
@@ -70,7 +70,8 @@ Observations shading_image(const Observations& image, const SurfaceState& state,
     }
   }
   Observations out = image;
-  for (size_t c = 0; c < 3; ++c) out.set_channel(0, static_cast<int>(c), radiance[c].data(), can_be_used[c].data());
+  for (size_t c = 0; c < 3; ++c)
+    out.set_channel(0, static_cast<int>(c), radiance[c].data(), can_be_used[c].data());
   return out;
 }
 
@@ -122,11 +123,12 @@ double lamp_spread(const SurfaceState& state) {
 void refuse_white_light(const RefineProblem& problem, const SurfaceState& state) {
   constexpr double kOneLight = 0.025;
   if (problem.images.colored_lamps.front() || lamp_spread(state) >= kOneLight) return;
-  throw InputError(problem.origin,
-                   "the three channels of frame " + std::to_string(problem.images.frame_index.front()) +
-                       " are lit from the same side, as by a white lamp, and rgb-ratio needs red, green and blue "
-                       "lamps in different places",
-                   "use --method fusion-like, which takes any one image");
+  throw InputError(
+      problem.origin,
+      "the three channels of frame " + std::to_string(problem.images.frame_index.front()) +
+          " are lit from the same side, as by a white lamp, and rgb-ratio needs red, green and blue "
+          "lamps in different places",
+      "use --method fusion-like, which takes any one image");
 }
 
 void judge_directions(const SurfaceState& state, MethodResult& result) {
@@ -134,13 +136,14 @@ void judge_directions(const SurfaceState& state, MethodResult& result) {
   result.quality["lamp_spread"] = lamp_spread(state);
   if (result.quality["lamp_spread"] >= kNearlyOneDirection) return;
   result.warnings.push_back(
-      "the image's three channels are lit from nearly the same side: rgb-ratio needs red, green and blue lamps in "
+      "the image's three channels are lit from nearly the same side: rgb-ratio needs red, green and blue "
+      "lamps in "
       "different places; set them further apart, or use --method fusion-like");
 }
 
 /// How much of options.depth.smoothness the image bears out.
-double smoothness_share(const RefineProblem& problem, const RefineOptions& options, const CurvaturePrior& curvature,
-                        DepthSolver& solver, MethodResult& result) {
+double smoothness_share(const RefineProblem& problem, const RefineOptions& options,
+                        const CurvaturePrior& curvature, DepthSolver& solver, MethodResult& result) {
   if (options.depth.smoothness <= 0) return 1;
   // lambda_z / lambda_l where the floors of shading_errors hold, as they do on most stacks; the image's error cancels.
   const double deviation = kSensorCorrelation * problem.depth_noise * problem.grid.camera.fx;
@@ -167,7 +170,8 @@ void hold_to_sensor(const RefineProblem& problem, double share, MethodResult& re
     zeta = problem.prior.start;
     result.message += "; the smoothed sensor depth is the result";
     result.warnings.push_back(
-        "one image was not enough to improve this depth: shading moved it further than the sensor's noise explains, so "
+        "one image was not enough to improve this depth: shading moved it further than the sensor's noise "
+        "explains, so "
         "the result is the sensor's depth, smoothed; take more images and use --method multi-light");
   } else {
     // and a large correction takes away that detail rather than noise
@@ -230,8 +234,8 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
         corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);
     CurvatureWeights smoothness;
     if (options.depth.smoothness > 0)
-      smoothness = curvature.at(state.zeta, share * options.depth.smoothness *
-                                                std::pow(errors.sample * grid.camera.fx, 2));
+      smoothness = curvature.at(
+          state.zeta, share * options.depth.smoothness * std::pow(errors.sample * grid.camera.fx, 2));
     const DepthProblem depth{grid, problem.corners, tensors, weights, prior, smoothness};
     const Eigen::VectorXd before = state.zeta;
     const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (12)

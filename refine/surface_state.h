@@ -12,11 +12,11 @@
 namespace rakelight {
 
 struct SurfaceState {
-  Eigen::VectorXd zeta;        ///< [pixel] log depth
-  Eigen::Matrix3Xf normals;    ///< [pixel] unit normals, camera frame
-  Eigen::Matrix3Xf points;     ///< [pixel] metres, camera frame
-  Eigen::Matrix3Xf albedo;     ///< [pixel] rho, a row a channel, mean 1 a channel
-  std::vector<Lamp> lamps;     ///< [image]
+  Eigen::VectorXd zeta;      ///< [pixel] log depth
+  Eigen::Matrix3Xf normals;  ///< [pixel] unit normals, camera frame
+  Eigen::Matrix3Xf points;   ///< [pixel] metres, camera frame
+  Eigen::Matrix3Xf albedo;   ///< [pixel] rho, a row a channel, mean 1 a channel
+  std::vector<Lamp> lamps;   ///< [image]
   LampScene scene;
   bool attached_shadows = true;  ///< shading is max(0, l.n) + phi instead of l.n + phi
   int harmonics = 1;             ///< order of the far lamps' spherical harmonics, 1 or 2
@@ -24,7 +24,8 @@ struct SurfaceState {
 };
 
 /// Shading max(0, l.n) + phi (or l.n + phi) of each channel.
-inline Eigen::Vector3f shading(const LocalLight& light, const Eigen::Vector3f& normal, bool attached_shadows) {
+inline Eigen::Vector3f shading(const LocalLight& light, const Eigen::Vector3f& normal,
+                               bool attached_shadows) {
   Eigen::Vector3f lit = light.l * normal;
   if (attached_shadows) lit = lit.cwiseMax(0.0f);
   return lit + light.phi;

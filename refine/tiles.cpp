@@ -49,7 +49,8 @@ std::vector<kernels::TileLamp> tile_lamps(const SurfaceState& state) {
 Tile::Tile(const Observations& images, const SurfaceState& state)
     : images_(images),
       state_(state),
-      any_near_(std::any_of(state.lamps.begin(), state.lamps.end(), [](const Lamp& lamp) { return lamp.near; })) {}
+      any_near_(
+          std::any_of(state.lamps.begin(), state.lamps.end(), [](const Lamp& lamp) { return lamp.near; })) {}
 
 void Tile::move_to(int begin, int count) {
   begin_ = begin;
@@ -72,7 +73,8 @@ const kernels::TileImage& Tile::image(int i, const float* weight) {
   image_.weight = weight + begin_;
   if (count_ == kTilePixels) return image_;
   for (int c = 0; c < 3; ++c) {
-    std::fill(std::copy_n(image_.codes[c], count_, codes_[c]), std::end(codes_[c]), kernels::TileImage::kUnusable);
+    std::fill(std::copy_n(image_.codes[c], count_, codes_[c]), std::end(codes_[c]),
+              kernels::TileImage::kUnusable);
     image_.codes[c] = codes_[c];
   }
   std::fill(std::copy_n(image_.weight, count_, weight_.at), std::end(weight_.at), 0.0f);

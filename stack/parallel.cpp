@@ -13,9 +13,7 @@ void in_parallel(int count, const std::function<void(int)>& body) {
     for (int k = range.start; k < range.end; ++k) {
       try {
         body(k);
-      } catch (...) {
-        failures[static_cast<std::size_t>(k)] = std::current_exception();
-      }
+      } catch (...) { failures[static_cast<std::size_t>(k)] = std::current_exception(); }
     }
   });
   for (const std::exception_ptr& failure : failures)

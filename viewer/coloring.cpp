@@ -87,7 +87,9 @@ std::string obstacle(const Scene& scene, Coloring coloring) {
     case Coloring::albedo:
       return scene.albedo.empty() ? "there is no albedo here; name a result that refine wrote" : "";
     case Coloring::image:
-      return scene.frames.empty() ? "no images here: the scan of this result is not at hand; name it with --stack STACK" : "";
+      return scene.frames.empty()
+                 ? "no images here: the scan of this result is not at hand; name it with --stack STACK"
+                 : "";
     case Coloring::delta:
       return scene.find(LayerKind::preprocessed) == nullptr
                  ? "there is no refined depth to compare; name a result that refine wrote"

@@ -13,8 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace rakelight::kernels {
 namespace HWY_NAMESPACE {
 
-void add_albedo_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, TileRow (&SI)[3],
-                     TileRow (&SS)[3]) {
+void add_albedo_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image,
+                     TileRow (&SI)[3], TileRow (&SS)[3]) {
   with_light(lamp, [&](auto light) {
     const D d;
     const V least = hn::Set(d, lamp.least);
@@ -40,8 +40,8 @@ HWY_AFTER_NAMESPACE();
 namespace rakelight::kernels {
 HWY_EXPORT(add_albedo_sums);
 
-void add_albedo_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, TileRow (&SI)[3],
-                     TileRow (&SS)[3]) {
+void add_albedo_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image,
+                     TileRow (&SI)[3], TileRow (&SS)[3]) {
   HWY_DYNAMIC_DISPATCH(add_albedo_sums)(surface, lamp, image, SI, SS);
 }
 

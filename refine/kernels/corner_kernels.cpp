@@ -102,14 +102,15 @@ HWY_INLINE void for_corner_energies(const CornerRun& run, const TensorRun& tenso
 }
 
 void corner_energies(const CornerRun& run, const TensorRun& tensors, float* energies) {
-  for_corner_energies(run, tensors,
-                      [&](int i, const V (&e)[4]) { store_interleaved<4>(e, run.count - i, energies + 4 * i); });
+  for_corner_energies(
+      run, tensors, [&](int i, const V(&e)[4]) { store_interleaved<4>(e, run.count - i, energies + 4 * i); });
 }
 
-void corner_weights(const CornerRun& run, const TensorRun& tensors, const float* share, float half, float* weights) {
+void corner_weights(const CornerRun& run, const TensorRun& tensors, const float* share, float half,
+                    float* weights) {
   const D d;
   const V one = hn::Set(d, 1.0f), inverse_half = hn::Set(d, 1.0f / half);
-  for_corner_energies(run, tensors, [&](int i, const V (&e)[4]) {
+  for_corner_energies(run, tensors, [&](int i, const V(&e)[4]) {
     const auto bits = load_bits(run.present, i);
     const V here = hn::LoadU(d, share + i);
     V w[4];
@@ -146,8 +147,9 @@ template <bool kTurning>
 HWY_INLINE Vector3 normal_slope(const Vector3& J, const Vector3& n, V inverse_d) {
   if constexpr (!kTurning) return scaled(J, inverse_d);
   const V along = dot(J, n);
-  return scaled({hn::NegMulAdd(along, n.x, J.x), hn::NegMulAdd(along, n.y, J.y), hn::NegMulAdd(along, n.z, J.z)},
-                inverse_d);
+  return scaled(
+      {hn::NegMulAdd(along, n.x, J.x), hn::NegMulAdd(along, n.y, J.y), hn::NegMulAdd(along, n.z, J.z)},
+      inverse_d);
 }
 
 template <bool kTurning>
@@ -173,7 +175,8 @@ HWY_INLINE float corner_equations_as(const CornerRun& run, const TensorRun& tens
       n = scaled(n, inverse_d);
       const Vector3 Gn = tensor.times(n);
       sum = hn::MulAdd(weight, tensor.energy(n, Gn), sum);
-      const Vector3 nx = normal_slope<kTurning>(Jx, n, inverse_d), ny = normal_slope<kTurning>(Jy, n, inverse_d);
+      const Vector3 nx = normal_slope<kTurning>(Jx, n, inverse_d),
+                    ny = normal_slope<kTurning>(Jy, n, inverse_d);
       const Vector3 miss{hn::Sub(tensor.h.x, Gn.x), hn::Sub(tensor.h.y, Gn.y), hn::Sub(tensor.h.z, Gn.z)};
       const Vector3 Gnx = tensor.times(nx);
       xx[left] = hn::MulAdd(weight, dot(nx, Gnx), xx[left]);
@@ -209,7 +212,8 @@ void gather_equations(const EquationRow& above, const EquationRow& here, const E
     const auto add = [](V a, V b) { return hn::Add(a, b); };
     const auto sum4 = [&](V a, V b, V c, V e) { return add(add(a, b), add(c, e)); };
     const auto store = [&](V value, float* to) { store_interleaved<1>(&value, count - i, to + i); };
-    const V rd = at(here.xy[kRightDown]), ld = at(here.xy[kLeftDown]), ru = at(here.xy[kRightUp]), lu = at(here.xy[kLeftUp]);
+    const V rd = at(here.xy[kRightDown]), ld = at(here.xy[kLeftDown]), ru = at(here.xy[kRightUp]),
+            lu = at(here.xy[kLeftUp]);
     const V xx0 = at(here.xx[0]), xx1 = at(here.xx[1]), yy0 = at(here.yy[0]), yy1 = at(here.yy[1]);
     const V right_xx1 = at(here.xx[1], 1), below_yy1 = at(below.yy[1]);
     const V own = add(sum4(xx0, xx1, yy0, yy1), hn::Mul(hn::Set(d, 2.0f), sum4(rd, ld, ru, lu)));
@@ -263,7 +267,8 @@ void corner_energies(const CornerRun& run, const TensorRun& tensors, float* ener
   HWY_DYNAMIC_DISPATCH(corner_energies)(run, tensors, energies);
 }
 
-void corner_weights(const CornerRun& run, const TensorRun& tensors, const float* share, float half, float* weights) {
+void corner_weights(const CornerRun& run, const TensorRun& tensors, const float* share, float half,
+                    float* weights) {
   HWY_DYNAMIC_DISPATCH(corner_weights)(run, tensors, share, half, weights);
 }
 

@@ -35,7 +35,8 @@ struct EquationRow {
 void corner_energies(const CornerRun& run, const TensorRun& tensors, float* energies);
 
 /// share / sqrt(1 + e / half) of each existing corner, 0 of the others. @param share [pixel], padded
-void corner_weights(const CornerRun& run, const TensorRun& tensors, const float* share, float half, float* weights);
+void corner_weights(const CornerRun& run, const TensorRun& tensors, const float* share, float half,
+                    float* weights);
 
 /// Sum of weight e over the run.
 float weighted_energy(const CornerRun& run, const TensorRun& tensors, const float* weights);

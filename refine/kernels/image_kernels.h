@@ -17,11 +17,12 @@ struct LightSums {
   float A[3][10];
   float b[3][4];
 };
-void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int count, LightSums& sums);
+void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int count,
+                LightSums& sums);
 
 /// Adds w S I and w S S of each channel to the albedo's sums.
-void add_albedo_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, TileRow (&SI)[3],
-                     TileRow (&SS)[3]);
+void add_albedo_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image,
+                     TileRow (&SI)[3], TileRow (&SS)[3]);
 
 /// Cauchy weight of each pixel's sample, 1 / (1 + r^2 / scale^2), r^2 the mean over the usable channels; 0 without any.
 void cauchy_weight(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, float scale,

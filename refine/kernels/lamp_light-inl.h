@@ -133,9 +133,12 @@ HWY_INLINE V shading(const Light<kKind>& light, int c, V least) {
 template <class Body>
 HWY_INLINE void with_light(const TileLamp& lamp, const Body& body) {
   switch (lamp.kind) {
-    case LightKind::far: return body(Light<LightKind::far>(lamp));
-    case LightKind::near: return body(Light<LightKind::near>(lamp));
-    case LightKind::second_order: return body(Light<LightKind::second_order>(lamp));
+    case LightKind::far:
+      return body(Light<LightKind::far>(lamp));
+    case LightKind::near:
+      return body(Light<LightKind::near>(lamp));
+    case LightKind::second_order:
+      return body(Light<LightKind::second_order>(lamp));
   }
 }
 

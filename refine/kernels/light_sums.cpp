@@ -14,8 +14,8 @@ namespace rakelight::kernels {
 namespace HWY_NAMESPACE {
 
 /// Of one channel; `shadowed`: pixels with l.n <= 0 have no say in l.
-void light_sums_of_channel(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int c, int count,
-                           float (&A)[10], float (&b)[4]) {
+void light_sums_of_channel(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int c,
+                           int count, float (&A)[10], float (&b)[4]) {
   const D d;
   const Vector3 l = set3(lamp.l[c]);
   const V least = hn::Set(d, lamp.least);
@@ -52,7 +52,8 @@ void light_sums_of_channel(const TileSurface& surface, const TileLamp& lamp, con
   for (int j = 0; j < 4; ++j) b[j] = hn::GetLane(hn::SumOfLanes(d, r[j]));
 }
 
-void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int count, LightSums& sums) {
+void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int count,
+                LightSums& sums) {
   for (int c = 0; c < 3; ++c) light_sums_of_channel(surface, lamp, image, c, count, sums.A[c], sums.b[c]);
 }
 
@@ -64,7 +65,8 @@ HWY_AFTER_NAMESPACE();
 namespace rakelight::kernels {
 HWY_EXPORT(light_sums);
 
-void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int count, LightSums& sums) {
+void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int count,
+                LightSums& sums) {
   HWY_DYNAMIC_DISPATCH(light_sums)(surface, lamp, image, count, sums);
 }
 

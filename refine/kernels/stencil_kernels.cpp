@@ -72,7 +72,8 @@ void prolong_row(const float* correction, const float* fine_diagonal, int fine_w
   const D d;
   const V half = hn::Set(d, 0.5f), none = hn::Zero(d);
   for (int u = 0; u < fine_width; u += 2 * lanes()) {
-    const V here = load(correction + u / 2), between = hn::Mul(half, hn::Add(here, load(correction + u / 2 + 1)));
+    const V here = load(correction + u / 2),
+            between = hn::Mul(half, hn::Add(here, load(correction + u / 2 + 1)));
     V even, odd, even_diagonal, odd_diagonal;
     hn::LoadInterleaved2(d, x + u, even, odd);
     hn::LoadInterleaved2(d, fine_diagonal + u, even_diagonal, odd_diagonal);
@@ -82,20 +83,24 @@ void prolong_row(const float* correction, const float* fine_diagonal, int fine_w
   }
 }
 
-void collapse_rows(const StencilRow& above, const StencilRow& middle, const StencilRow& below, const BandRow& itself,
-                   const BandRow& to_next) {
+void collapse_rows(const StencilRow& above, const StencilRow& middle, const StencilRow& below,
+                   const BandRow& itself, const BandRow& to_next) {
   const D d;
   const V half = hn::Set(d, 0.5f), quarter = hn::Set(d, 0.25f);
   for (int x = 0; x < middle.width; x += lanes()) {
     const auto with_outer = [&](const float* a, const float* m, const float* b) {
       return hn::MulAdd(quarter, hn::Add(load(a + x), load(b + x)), load(m + x));
     };
-    const auto halves = [&](const float* a, const float* b) { return hn::Mul(half, hn::Add(load(a + x), load(b + x))); };
+    const auto halves = [&](const float* a, const float* b) {
+      return hn::Mul(half, hn::Add(load(a + x), load(b + x)));
+    };
     const V same = with_outer(above.diagonal, middle.diagonal, below.diagonal);
     hn::StoreU(hn::Add(same, hn::Add(load(above.down + x), load(middle.down + x))), d, itself.same + x);
-    const V slanted = hn::Add(halves(above.down_right, above.down_left + 1), halves(middle.down_right, middle.down_left + 1));
+    const V slanted = hn::Add(halves(above.down_right, above.down_left + 1),
+                              halves(middle.down_right, middle.down_left + 1));
     hn::StoreU(hn::Add(with_outer(above.right, middle.right, below.right), slanted), d, itself.right + x);
-    hn::StoreU(hn::MulAdd(quarter, load(below.diagonal + x), halves(middle.down, below.down)), d, to_next.same + x);
+    hn::StoreU(hn::MulAdd(quarter, load(below.diagonal + x), halves(middle.down, below.down)), d,
+               to_next.same + x);
     hn::StoreU(hn::MulAdd(quarter, load(below.right + x), halves(middle.down_right, below.down_right)), d,
                to_next.right + x);
     hn::StoreU(hn::MulAdd(quarter, load(below.right + x - 1), halves(middle.down_left, below.down_left)), d,
@@ -109,16 +114,22 @@ void collapse_along(const BandRow& itself, const BandRow& to_next, const CoarseR
   for (int X = 0; X < coarse.width; X += lanes()) {
     const auto inside = hn::FirstN(d, static_cast<size_t>(coarse.width - X));
     const auto store = [&](V value, float* to) { hn::StoreU(hn::IfThenElseZero(inside, value), d, to + X); };
-    const auto with_outer = [&](const Around& v) { return hn::MulAdd(quarter, hn::Add(v.left, v.right), v.even); };
+    const auto with_outer = [&](const Around& v) {
+      return hn::MulAdd(quarter, hn::Add(v.left, v.right), v.even);
+    };
     const Around same(itself.same + 2 * X), right(itself.right + 2 * X);
     store(hn::Add(with_outer(same), hn::Add(right.left, right.even)), coarse.diagonal);
     store(hn::MulAdd(quarter, same.right, hn::Mul(half, hn::Add(right.even, right.right))), coarse.right);
 
-    const Around down(to_next.same + 2 * X), down_right(to_next.right + 2 * X), down_left(to_next.left + 2 * X);
-    const V slanted = hn::Add(hn::Add(down_right.left, down_right.even), hn::Add(down_left.even, down_left.right));
+    const Around down(to_next.same + 2 * X), down_right(to_next.right + 2 * X),
+        down_left(to_next.left + 2 * X);
+    const V slanted =
+        hn::Add(hn::Add(down_right.left, down_right.even), hn::Add(down_left.even, down_left.right));
     store(hn::MulAdd(half, slanted, with_outer(down)), coarse.down);
-    store(hn::MulAdd(quarter, down.right, hn::Mul(half, hn::Add(down_right.even, down_right.right))), coarse.down_right);
-    store(hn::MulAdd(quarter, down.left, hn::Mul(half, hn::Add(down_left.even, down_left.left))), coarse.down_left);
+    store(hn::MulAdd(quarter, down.right, hn::Mul(half, hn::Add(down_right.even, down_right.right))),
+          coarse.down_right);
+    store(hn::MulAdd(quarter, down.left, hn::Mul(half, hn::Add(down_left.even, down_left.left))),
+          coarse.down_left);
   }
 }
 
@@ -135,7 +146,9 @@ HWY_EXPORT(prolong_row);
 HWY_EXPORT(collapse_rows);
 HWY_EXPORT(collapse_along);
 
-float multiply_row(const StencilRow& A, const float* x, float* y) { return HWY_DYNAMIC_DISPATCH(multiply_row)(A, x, y); }
+float multiply_row(const StencilRow& A, const float* x, float* y) {
+  return HWY_DYNAMIC_DISPATCH(multiply_row)(A, x, y);
+}
 
 void subtract_other_rows(const StencilRow& A, const float* x, const float* r, float* g) {
   HWY_DYNAMIC_DISPATCH(subtract_other_rows)(A, x, r, g);
@@ -149,8 +162,8 @@ void prolong_row(const float* correction, const float* fine_diagonal, int fine_w
   HWY_DYNAMIC_DISPATCH(prolong_row)(correction, fine_diagonal, fine_width, x);
 }
 
-void collapse_rows(const StencilRow& above, const StencilRow& middle, const StencilRow& below, const BandRow& itself,
-                   const BandRow& to_next) {
+void collapse_rows(const StencilRow& above, const StencilRow& middle, const StencilRow& below,
+                   const BandRow& itself, const BandRow& to_next) {
   HWY_DYNAMIC_DISPATCH(collapse_rows)(above, middle, below, itself, to_next);
 }
 

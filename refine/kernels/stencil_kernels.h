@@ -37,8 +37,8 @@ struct BandRow {
 
 /// What the rows 2Y - 1, 2Y, 2Y + 1 of a stencil become under vertical interpolation: the coarse row's couplings to itself
 /// (symmetric: `left` is not filled) and to the coarse row below. `zeros` stands for rows outside.
-void collapse_rows(const StencilRow& above, const StencilRow& middle, const StencilRow& below, const BandRow& itself,
-                   const BandRow& to_next);
+void collapse_rows(const StencilRow& above, const StencilRow& middle, const StencilRow& below,
+                   const BandRow& itself, const BandRow& to_next);
 
 /// The same along the row: a row of the coarse stencil.
 struct CoarseRow {

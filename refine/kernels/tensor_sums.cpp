@@ -17,7 +17,8 @@ namespace HWY_NAMESPACE {
 struct Sums {
   V xx, xy, xz, yy, yz, zz, hx, hy, hz, e0;
 
-  explicit Sums(D d) : xx(hn::Zero(d)), xy(xx), xz(xx), yy(xx), yz(xx), zz(xx), hx(xx), hy(xx), hz(xx), e0(xx) {}
+  explicit Sums(D d)
+      : xx(hn::Zero(d)), xy(xx), xz(xx), yy(xx), yz(xx), zz(xx), hx(xx), hy(xx), hz(xx), e0(xx) {}
 
   /// w (l . n - rest)^2 without the square of rest: G += w l l', h += wrest l.
   HWY_INLINE void add(const Vector3& l, V w, V wrest) {
@@ -35,7 +36,9 @@ struct Sums {
 
   HWY_INLINE void add_to(TileTensors& tile, int k) const {
     const D d;
-    const auto add_row = [&](V value, TileRow& row) { hn::Store(hn::Add(value, hn::Load(d, row.at + k)), d, row.at + k); };
+    const auto add_row = [&](V value, TileRow& row) {
+      hn::Store(hn::Add(value, hn::Load(d, row.at + k)), d, row.at + k);
+    };
     add_row(xx, tile.xx);
     add_row(xy, tile.xy);
     add_row(xz, tile.xz);
@@ -50,8 +53,8 @@ struct Sums {
 };
 
 /// A near lamp's channels share one vector v: G += w sum (rho e)^2 v v'.
-HWY_INLINE void add_channels(const Light<LightKind::near>& light, const V (&rho)[3], const V (&rest)[3], V weight, V least,
-                             Sums& sums) {
+HWY_INLINE void add_channels(const Light<LightKind::near>& light, const V (&rho)[3], const V (&rest)[3],
+                             V weight, V least, Sums& sums) {
   const D d;
   V strength2 = hn::Zero(d), strength_rest = strength2;
   for (int c = 0; c < 3; ++c) {
@@ -64,15 +67,16 @@ HWY_INLINE void add_channels(const Light<LightKind::near>& light, const V (&rho)
 }
 
 template <LightKind kKind>
-HWY_INLINE void add_channels(const Light<kKind>& light, const V (&rho)[3], const V (&rest)[3], V weight, V least,
-                             Sums& sums) {
+HWY_INLINE void add_channels(const Light<kKind>& light, const V (&rho)[3], const V (&rest)[3], V weight,
+                             V least, Sums& sums) {
   for (int c = 0; c < 3; ++c) {
     const V lit = hn::IfThenElseZero(hn::Gt(light.incidence(c), least), hn::Mul(weight, rho[c]));
     sums.add(light.l(c), hn::Mul(lit, rho[c]), hn::Mul(lit, rest[c]));
   }
 }
 
-void add_tensors(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, TileTensors& tile) {
+void add_tensors(const TileSurface& surface, const TileLamp& lamp, const TileImage& image,
+                 TileTensors& tile) {
   with_light(lamp, [&](auto light) {
     const D d;
     const V least = hn::Set(d, lamp.least);
@@ -101,7 +105,8 @@ HWY_AFTER_NAMESPACE();
 namespace rakelight::kernels {
 HWY_EXPORT(add_tensors);
 
-void add_tensors(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, TileTensors& tile) {
+void add_tensors(const TileSurface& surface, const TileLamp& lamp, const TileImage& image,
+                 TileTensors& tile) {
   HWY_DYNAMIC_DISPATCH(add_tensors)(surface, lamp, image, tile);
 }
 

@@ -45,7 +45,7 @@ struct TileImage {
 
   const std::uint16_t* codes[3] = {};  ///< [channel]
   float step[3] = {}, least[3] = {};
-  const float* weight = nullptr;       ///< trust in the pixel's sample
+  const float* weight = nullptr;  ///< trust in the pixel's sample
 };
 
 /// e(n) = n' G n - 2 h' n + e0 a pixel (refine/steps/photometric_tensor.h).

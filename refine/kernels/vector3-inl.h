@@ -40,7 +40,9 @@ HWY_INLINE V dot(const Vector3& a, const Vector3& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 
-HWY_INLINE Vector3 scaled(const Vector3& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
+HWY_INLINE Vector3 scaled(const Vector3& a, V s) {
+  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
+}
 
 template <int kParts>
 HWY_INLINE void store_all_interleaved(const V* v, float* to) {

@@ -111,13 +111,20 @@ void read_manifest(const fs::path& file, StoredResult& result) {
 
 std::string to_string(Output output) {
   switch (output) {
-    case Output::depth: return "depth";
-    case Output::normals: return "normals";
-    case Output::albedo: return "albedo";
-    case Output::uncertainty: return "uncertainty";
-    case Output::mesh: return "mesh";
-    case Output::pictures: return "pictures";
-    case Output::report: return "report";
+    case Output::depth:
+      return "depth";
+    case Output::normals:
+      return "normals";
+    case Output::albedo:
+      return "albedo";
+    case Output::uncertainty:
+      return "uncertainty";
+    case Output::mesh:
+      return "mesh";
+    case Output::pictures:
+      return "pictures";
+    case Output::report:
+      return "report";
   }
   return "unknown";
 }
@@ -130,23 +137,28 @@ void write_result(const RefineResult& result, const fs::path& folder, const Ligh
     if (std::find(outputs.begin(), outputs.end(), output) == outputs.end()) return;
     jobs.push_back([&out, name, make_and_write] { make_and_write(out.path() / name); });
   };
-  add(Output::report, "report.html", [&](const fs::path& file) { write_file(file, report_html(result, stack)); });
+  add(Output::report, "report.html",
+      [&](const fs::path& file) { write_file(file, report_html(result, stack)); });
   add(Output::mesh, "mesh.ply", [&](const fs::path& file) { write_file(file, ply_bytes(mesh_of(result))); });
   add(Output::mesh, "mesh.glb", [&](const fs::path& file) {
     write_file(file, glb_bytes(mesh_of(result, stride_for(result.depth, kMaxGlbVertices))));
   });
   if (!result.uncertainty.empty())
-    add(Output::uncertainty, "uncertainty.tiff", [&](const fs::path& file) { write_tiff(file, result.uncertainty); });
+    add(Output::uncertainty, "uncertainty.tiff",
+        [&](const fs::path& file) { write_tiff(file, result.uncertainty); });
   add(Output::normals, "normals.tiff", [&](const fs::path& file) { write_tiff(file, result.normals); });
   add(Output::albedo, "albedo.tiff", [&](const fs::path& file) { write_tiff(file, result.albedo); });
   add(Output::depth, "depth.tiff", [&](const fs::path& file) { write_tiff(file, result.depth); });
-  add(Output::depth, "initial_depth.tiff", [&](const fs::path& file) { write_tiff(file, result.initial_depth); });
-  add(Output::pictures, "before_after.png", [&](const fs::path& file) { write_png(file, before_after_picture(result)); });
-  add(Output::depth, "depth.png", [&](const fs::path& file) {
-    write_png(file, depth_picture(result.depth, depth_unit(result.depth)));
-  });
-  add(Output::normals, "normals.png", [&](const fs::path& file) { write_png(file, normals_picture(result.normals)); });
-  add(Output::albedo, "albedo.png", [&](const fs::path& file) { write_png(file, albedo_picture(result.albedo)); });
+  add(Output::depth, "initial_depth.tiff",
+      [&](const fs::path& file) { write_tiff(file, result.initial_depth); });
+  add(Output::pictures, "before_after.png",
+      [&](const fs::path& file) { write_png(file, before_after_picture(result)); });
+  add(Output::depth, "depth.png",
+      [&](const fs::path& file) { write_png(file, depth_picture(result.depth, depth_unit(result.depth))); });
+  add(Output::normals, "normals.png",
+      [&](const fs::path& file) { write_png(file, normals_picture(result.normals)); });
+  add(Output::albedo, "albedo.png",
+      [&](const fs::path& file) { write_png(file, albedo_picture(result.albedo)); });
   in_parallel(jobs);
   write_file(out.path() / kManifest, result_json(result, place_of(stack, folder)));
   out.commit();

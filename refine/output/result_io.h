@@ -22,8 +22,9 @@ enum class Output {
   pictures,     ///< before_after.png
   report,       ///< report.html
 };
-inline const std::vector<Output> kAllOutputs{Output::depth, Output::normals,  Output::albedo, Output::uncertainty,
-                                             Output::mesh,  Output::pictures, Output::report};
+inline const std::vector<Output> kAllOutputs{Output::depth,       Output::normals, Output::albedo,
+                                             Output::uncertainty, Output::mesh,    Output::pictures,
+                                             Output::report};
 std::string to_string(Output output);
 
 /// Writes depth, normals, albedo, meshes, pictures, report.html and result.json whole or not at all: a temporary sibling
@@ -31,8 +32,8 @@ std::string to_string(Output output);
 /// @param stack what the result was made from, whose frames the report shows and whose folder (its origin)
 ///              result.json names; null: neither
 /// @throws BusyError, IoError; InputError if `folder` exists and is neither empty nor a result.
-void write_result(const RefineResult& result, const std::filesystem::path& folder, const LightStack* stack = nullptr,
-                  const std::vector<Output>& outputs = kAllOutputs);
+void write_result(const RefineResult& result, const std::filesystem::path& folder,
+                  const LightStack* stack = nullptr, const std::vector<Output>& outputs = kAllOutputs);
 
 /// Refuses early what write_result would refuse, so that a long run does not end in vain. @throws as write_result.
 void check_result_folder(const std::filesystem::path& folder);

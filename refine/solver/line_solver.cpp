@@ -14,11 +14,16 @@ using Eigen::Index;
 template <class Body>
 void with_row_count(int rows, const Body& body) {
   switch (std::min(rows, LineSolver::kRowsAtOnce)) {
-    case 4: return body(std::integral_constant<size_t, 4>());
-    case 3: return body(std::integral_constant<size_t, 3>());
-    case 2: return body(std::integral_constant<size_t, 2>());
-    case 1: return body(std::integral_constant<size_t, 1>());
-    default: return;
+    case 4:
+      return body(std::integral_constant<size_t, 4>());
+    case 3:
+      return body(std::integral_constant<size_t, 3>());
+    case 2:
+      return body(std::integral_constant<size_t, 2>());
+    case 1:
+      return body(std::integral_constant<size_t, 1>());
+    default:
+      return;
   }
 }
 
@@ -44,7 +49,8 @@ bool factorize_rows(const StencilGrid& A, int first, float* inverse_pivot, float
 }
 
 template <size_t kRows>
-void solve_rows(const StencilGrid& A, int first, int step, const float* inverse_pivot, const float* multiplier, float* x) {
+void solve_rows(const StencilGrid& A, int first, int step, const float* inverse_pivot,
+                const float* multiplier, float* x) {
   const Index row = step * A.stride(), begin = A.at(0, first);
   const float *ip = inverse_pivot + begin, *m = multiplier + begin;
   float* v = x + begin;

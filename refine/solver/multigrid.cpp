@@ -18,7 +18,8 @@ enum Color { even = 0, odd = 1 };
 struct RowBuffer {
   std::vector<float> values;
 
-  explicit RowBuffer(const StencilGrid& grid) : values(static_cast<size_t>(grid.stride()) + 6 * kernels::kRowAlign) {}
+  explicit RowBuffer(const StencilGrid& grid)
+      : values(static_cast<size_t>(grid.stride()) + 6 * kernels::kRowAlign) {}
   float* begin() { return values.data() + kernels::kRowAlign; }
 };
 
@@ -45,7 +46,8 @@ StencilGrid coarser(const StencilGrid& fine) {
 }
 
 /// Gauss-Seidel over the rows of one colour. @param first_visit x counts as 0
-void relax(const StencilGrid& A, const LineSolver& lines, Color color, const VectorXf& r, bool first_visit, VectorXf& x) {
+void relax(const StencilGrid& A, const LineSolver& lines, Color color, const VectorXf& r, bool first_visit,
+           VectorXf& x) {
   for_rows(A, color, 2 * LineSolver::kRowsAtOnce, [&](int first) {
     for (int k = 0, y = first; k < LineSolver::kRowsAtOnce && y < A.height; ++k, y += 2) {
       const Index i = A.at(0, y);
@@ -79,10 +81,12 @@ void restrict_residual(const StencilGrid& A, const VectorXf& r, bool one_sweep, 
 }
 
 /// Adds the coarse correction to the even rows; the odd ones are relaxed next, whatever they hold.
-void correct_even_rows(const StencilGrid& coarse, const VectorXf& correction, const StencilGrid& A, VectorXf& x) {
+void correct_even_rows(const StencilGrid& coarse, const VectorXf& correction, const StencilGrid& A,
+                       VectorXf& x) {
   for_rows(A, even, 2, [&](int y) {
     const Index i = A.at(0, y);
-    kernels::prolong_row(correction.data() + coarse.at(0, y / 2), A.diagonal.data() + i, A.width, x.data() + i);
+    kernels::prolong_row(correction.data() + coarse.at(0, y / 2), A.diagonal.data() + i, A.width,
+                         x.data() + i);
   });
 }
 

@@ -12,8 +12,9 @@ namespace {
 
 using Eigen::VectorXf;
 
-constexpr int kMostSteps = 200;  // 2 to 20 without second differences; what needs more is left to the exact solver
-constexpr int kSlow = 20;        // steps after which the preconditioner smooths twice
+constexpr int kMostSteps =
+    200;                   // 2 to 20 without second differences; what needs more is left to the exact solver
+constexpr int kSlow = 20;  // steps after which the preconditioner smooths twice
 
 class MultigridDepthSolver final : public DepthSolver {
  public:
@@ -35,10 +36,12 @@ class MultigridDepthSolver final : public DepthSolver {
   bool solve(DepthSystem system, Eigen::VectorXd& x) override {
     last_ = std::make_unique<DepthSystem>(std::move(system));
     exact_has_last_ = false;
-    curvature_ = last_->curvature.empty() ? SecondDifferences() : SecondDifferences(placement_, last_->curvature);
+    curvature_ =
+        last_->curvature.empty() ? SecondDifferences() : SecondDifferences(placement_, last_->curvature);
     StencilGrid stencil = stencil_of(*last_);
     stencil_ = curvature_.empty() ? StencilGrid() : stencil;
-    set_up_ = multigrid_.setup(curvature_.empty() ? std::move(stencil) : curvature_.bounded_by_slopes(std::move(stencil)));
+    set_up_ = multigrid_.setup(curvature_.empty() ? std::move(stencil)
+                                                  : curvature_.bounded_by_slopes(std::move(stencil)));
     return solve_again(last_->rhs, x);
   }
 
@@ -94,7 +97,8 @@ class MultigridDepthSolver final : public DepthSolver {
         for (size_t k = 0; k < count; ++k) mean += direction_[places[k]];
         const auto size = static_cast<float>(count);
         const float share = static_cast<float>(system.cell_weight[cell]) / size;
-        for (size_t k = 0; k < count; ++k) product_[places[k]] += share * (mean / size - direction_[places[k]]);
+        for (size_t k = 0; k < count; ++k)
+          product_[places[k]] += share * (mean / size - direction_[places[k]]);
       }
     });
   }
@@ -142,7 +146,8 @@ class MultigridDepthSolver final : public DepthSolver {
       if (step == kSlow) multigrid_.set_sweeps(2);
       multigrid_.apply(residual_, preconditioned_);
       const double next = dot(residual_, preconditioned_);
-      share = step == kSlow ? 0 : static_cast<float>(next / rz);  // another preconditioner: directions start anew
+      share =
+          step == kSlow ? 0 : static_cast<float>(next / rz);  // another preconditioner: directions start anew
       rz = next;
     }
     if (!std::isfinite(rz)) return false;
@@ -157,8 +162,8 @@ class MultigridDepthSolver final : public DepthSolver {
   bool single_cells_;             ///< a cell is a pixel: lumped is exact
   std::vector<int> cell_places_;  ///< places of the cells' pixels, cell by cell
   Multigrid multigrid_;
-  bool set_up_ = false;   ///< the last system has a preconditioner
-  StencilGrid stencil_;   ///< with second differences: the system without them
+  bool set_up_ = false;  ///< the last system has a preconditioner
+  StencilGrid stencil_;  ///< with second differences: the system without them
   SecondDifferences curvature_;
   VectorXf residual_, solution_, preconditioned_, direction_, product_;
   std::unique_ptr<DepthSolver> exact_;

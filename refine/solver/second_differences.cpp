@@ -20,12 +20,15 @@ void SecondDifferences::add_product(const StencilGrid& A, const VectorXf& x, Vec
   };
   for_rows(A, 0, 1, [&](int row) {
     const Index at = A.at(0, row);
-    across_of_x_.segment(at, A.width) = across_.segment(at, A.width).cwiseProduct(difference(x, at, A.width, 1));
-    down_of_x_.segment(at, A.width) = down_.segment(at, A.width).cwiseProduct(difference(x, at, A.width, stride));
+    across_of_x_.segment(at, A.width) =
+        across_.segment(at, A.width).cwiseProduct(difference(x, at, A.width, 1));
+    down_of_x_.segment(at, A.width) =
+        down_.segment(at, A.width).cwiseProduct(difference(x, at, A.width, stride));
   });
   for_rows(A, 0, 1, [&](int row) {
     const Index at = A.at(0, row);
-    y.segment(at, A.width) += difference(across_of_x_, at, A.width, 1) + difference(down_of_x_, at, A.width, stride);
+    y.segment(at, A.width) +=
+        difference(across_of_x_, at, A.width, 1) + difference(down_of_x_, at, A.width, stride);
   });
 }
 

@@ -13,8 +13,13 @@ StencilGrid::StencilGrid(int width_px, int height_px) : width(width_px), height(
 
 kernels::StencilRow StencilGrid::row(int y) const {
   const Eigen::Index i = at(0, y);
-  return {diagonal.data() + i, right.data() + i, down.data() + i, down_right.data() + i, down_left.data() + i,
-          stride(),            width};
+  return {diagonal.data() + i,
+          right.data() + i,
+          down.data() + i,
+          down_right.data() + i,
+          down_left.data() + i,
+          stride(),
+          width};
 }
 
 double StencilGrid::multiply(const Eigen::VectorXf& x, Eigen::VectorXf& y) const {

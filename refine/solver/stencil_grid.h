@@ -20,7 +20,9 @@ struct StencilGrid {
   StencilGrid() = default;
   StencilGrid(int width_px, int height_px);
 
-  Eigen::Index stride() const { return (width + kernels::kRowAlign - 1) / kernels::kRowAlign * kernels::kRowAlign + 2; }
+  Eigen::Index stride() const {
+    return (width + kernels::kRowAlign - 1) / kernels::kRowAlign * kernels::kRowAlign + 2;
+  }
   Eigen::Index at(int x, int y) const { return (y + 1) * stride() + x + 1; }
 
   /// Of vectors over the grid: with borders, and what a vector kernel may read past the last.

@@ -10,9 +10,9 @@
 namespace rakelight {
 namespace {
 
-constexpr int kSamples = 4000;        // enough for modes good to a percent
+constexpr int kSamples = 4000;  // enough for modes good to a percent
 constexpr int kMaxShifts = 50;
-constexpr double kLeastShare = 0.003; // of the pixels, for a colour to be one of the palette's
+constexpr double kLeastShare = 0.003;  // of the pixels, for a colour to be one of the palette's
 
 Eigen::Matrix3Xd every_nth(const Eigen::Matrix3Xd& points) {
   const Eigen::Index step = std::max<Eigen::Index>(1, points.cols() / kSamples);
@@ -27,13 +27,15 @@ std::vector<Eigen::Vector3d> seeds(const Eigen::Matrix3Xd& samples, double bandw
   for (Eigen::Index i = 0; i < samples.cols(); ++i) {
     const Eigen::Vector3d x = samples.col(i);
     const auto cube = [&](int c) { return std::lround(std::floor(x[c] / bandwidth)); };
-    auto& [sum, count] = cubes.try_emplace({cube(0), cube(1), cube(2)}, Eigen::Vector3d::Zero(), 0).first->second;
+    auto& [sum, count] =
+        cubes.try_emplace({cube(0), cube(1), cube(2)}, Eigen::Vector3d::Zero(), 0).first->second;
     sum += x;
     ++count;
   }
   std::vector<Eigen::Vector3d> means;
   for (const auto& [key, cube] : cubes) {
-    if (cube.second >= kLeastShare * static_cast<double>(samples.cols())) means.push_back(cube.first / cube.second);
+    if (cube.second >= kLeastShare * static_cast<double>(samples.cols()))
+      means.push_back(cube.first / cube.second);
   }
   return means;
 }

@@ -117,7 +117,8 @@ bool AlbedoSmoother::estimate(const SurfaceState& state, Eigen::Matrix3Xf& albed
   Eigen::Matrix3Xd target = log_radiance(image_);
   Eigen::VectorXd weight(grid_.size());
   for (int p = 0; p < grid_.size(); ++p) {
-    constexpr double kUnknown = 1e-2;  // keeps regions without any usable pixel determined, in single precision
+    constexpr double kUnknown =
+        1e-2;  // keeps regions without any usable pixel determined, in single precision
     weight[p] = S.col(p).minCoeff() > dim && image_.usable_channels(0, p).minCoeff() > 0 ? 1.0 : kUnknown;
     target.col(p) -= S.col(p).cwiseMax(dim).array().log().matrix().cast<double>();
   }

@@ -29,7 +29,8 @@ float median_energy(const PixelGrid& grid, const ZetaImage& image, const CornerL
     for_each_run(grid, y, [&](const PixelRun& run) {
       kernels::corner_energies(image.run(corners, y, run), tensor_run(tensors, run), row.data());
       for (int k = 0; k < kCorners * run.count; ++k)
-        if (corners.has(run.first + k / kCorners, k % kCorners)) energies.push_back(row[static_cast<size_t>(k)]);
+        if (corners.has(run.first + k / kCorners, k % kCorners))
+          energies.push_back(row[static_cast<size_t>(k)]);
     });
   }
   if (energies.empty()) return 0;
@@ -42,20 +43,26 @@ float median_energy(const PixelGrid& grid, const ZetaImage& image, const CornerL
 class EquationRows {
  public:
   explicit EquationRows(const PixelGrid& grid)
-      : left_(grid.box.x), stride_(static_cast<size_t>(grid.box.width + 2 + kVectorPadding)), values_(3 * kParts * stride_) {}
+      : left_(grid.box.x),
+        stride_(static_cast<size_t>(grid.box.width + 2 + kVectorPadding)),
+        values_(3 * kParts * stride_) {}
 
   /// The box's row y, from column x on.
   kernels::EquationRow row(int y, int x) {
     const size_t slot = static_cast<size_t>((y + 3) % 3);
     float* begin = values_.data() + slot * kParts * stride_ + 1 + static_cast<size_t>(x - left_);
     const auto part = [&](size_t k) { return begin + k * stride_; };
-    return {{part(0), part(1)}, {part(2), part(3)}, {part(4), part(5)}, {part(6), part(7)},
+    return {{part(0), part(1)},
+            {part(2), part(3)},
+            {part(4), part(5)},
+            {part(6), part(7)},
             {part(8), part(9), part(10), part(11)}};
   }
 
   void clear(int y) {
     const size_t row = kParts * stride_;
-    std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>((y + 3) % 3) * row), row, 0.0f);
+    std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>((y + 3) % 3) * row), row,
+                0.0f);
   }
 
  private:
@@ -68,7 +75,8 @@ class EquationRows {
 /// Fills the photometric part of the system, strip by strip; a strip computes the rows beside it once more.
 class Assembly {
  public:
-  Assembly(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization, DepthSystem& system)
+  Assembly(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization,
+           DepthSystem& system)
       : problem_(problem),
         image_(problem.grid, zeta),
         turning_(linearization == Linearization::gauss_newton),
@@ -94,18 +102,19 @@ class Assembly {
     double energy = 0;
     if (y < 0 || y >= problem_.grid.box.height) return energy;
     for_each_run(problem_.grid, y, [&](const PixelRun& run) {
-      energy += static_cast<double>(
-          kernels::corner_equations(image_.run(problem_.corners, y, run), tensor_run(problem_.tensors, run),
-                                    weights_of(problem_.corner_weight, run), turning_, equations.row(y, run.x)));
+      energy += static_cast<double>(kernels::corner_equations(
+          image_.run(problem_.corners, y, run), tensor_run(problem_.tensors, run),
+          weights_of(problem_.corner_weight, run), turning_, equations.row(y, run.x)));
     });
     return energy;
   }
 
   void gather_run(int y, const PixelRun& run, EquationRows& equations, std::vector<float>& rhs) const {
     const auto at = [&](std::vector<float>& entries) { return entries.data() + run.first; };
-    kernels::gather_equations(equations.row(y - 1, run.x), equations.row(y, run.x), equations.row(y + 1, run.x), run.count,
-                              {at(system_.diagonal), at(system_.right), at(system_.down), at(system_.down_right),
-                               at(system_.down_left), rhs.data()});
+    kernels::gather_equations(equations.row(y - 1, run.x), equations.row(y, run.x),
+                              equations.row(y + 1, run.x), run.count,
+                              {at(system_.diagonal), at(system_.right), at(system_.down),
+                               at(system_.down_right), at(system_.down_left), rhs.data()});
     system_.rhs.segment(run.first, run.count) = Eigen::VectorXf::Map(rhs.data(), run.count).cast<double>();
   }
 
@@ -117,13 +126,16 @@ class Assembly {
 
 }  // namespace
 
-CornerWeights corner_weights(const PixelGrid& grid, const CornerList& corners, const PhotometricTensors& tensors,
-                             const Eigen::VectorXd& zeta, double edge_weight) {
+CornerWeights corner_weights(const PixelGrid& grid, const CornerList& corners,
+                             const PhotometricTensors& tensors, const Eigen::VectorXd& zeta,
+                             double edge_weight) {
   CornerWeights weights(static_cast<size_t>(grid.size()));
   const ZetaImage image(grid, zeta);
-  const float half = edge_weight > 0 ? static_cast<float>(edge_weight) * median_energy(grid, image, corners, tensors) : 0;
+  const float half =
+      edge_weight > 0 ? static_cast<float>(edge_weight) * median_energy(grid, image, corners, tensors) : 0;
   for_each_run(grid, [&](int y, const PixelRun& run) {
-    kernels::corner_weights(image.run(corners, y, run), tensor_run(tensors, run), corners.weight.data() + run.first,
+    kernels::corner_weights(image.run(corners, y, run), tensor_run(tensors, run),
+                            corners.weight.data() + run.first,
                             half > 0 ? half : std::numeric_limits<float>::infinity(),
                             weights[static_cast<size_t>(run.first)].data());
   });
@@ -136,11 +148,13 @@ double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta) {
     return kernels::weighted_energy(image.run(problem.corners, y, run), tensor_run(problem.tensors, run),
                                     weights_of(problem.corner_weight, run));
   });
-  const double smoothness = problem.curvature.empty() ? 0 : curvature_energy(problem.grid, problem.curvature, zeta);
+  const double smoothness =
+      problem.curvature.empty() ? 0 : curvature_energy(problem.grid, problem.curvature, zeta);
   return photometric + prior_energy(problem.prior, zeta) + smoothness;
 }
 
-DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization) {
+DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
+                         Linearization linearization) {
   DepthSystem system(problem.grid.size());
   const Assembly assembly(problem, zeta, linearization, system);
   for_each_strip(problem.grid, [&](int begin, int end) { assembly.add_rows(begin, end); });

@@ -44,8 +44,9 @@ struct DepthProblem {
 /// Weight of each corner: 1 / corners of the pixel (CornerList::weight), divided by sqrt(1 + e / (edge_weight median e)), e its energy at zeta,
 /// so that gradients do not cross occlusions. The root makes a corner's say level off rather than vanish: without it, where
 /// lamps miss a little everywhere, the surface tears along lines instead of bending.
-CornerWeights corner_weights(const PixelGrid& grid, const CornerList& corners, const PhotometricTensors& tensors,
-                             const Eigen::VectorXd& zeta, double edge_weight);
+CornerWeights corner_weights(const PixelGrid& grid, const CornerList& corners,
+                             const PhotometricTensors& tensors, const Eigen::VectorXd& zeta,
+                             double edge_weight);
 
 /// sum over corners of weight e(n) + the prior's energy + that of the curvature.
 double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta);

@@ -6,7 +6,8 @@
 
 namespace rakelight {
 
-Eigen::Vector2d forward_gradient(const PixelGrid& grid, const CornerList& corners, int p, const Eigen::VectorXd& x) {
+Eigen::Vector2d forward_gradient(const PixelGrid& grid, const CornerList& corners, int p,
+                                 const Eigen::VectorXd& x) {
   const int k = corners.first(p);
   if (k < 0) return Eigen::Vector2d::Zero();
   const Corner corner = corner_at(grid, p, k);
@@ -22,9 +23,10 @@ Eigen::SparseMatrix<double> normal_matrix(const GradientProblem& problem, Eigen:
     const int k = problem.corners.first(row.pixel);
     if (k < 0) continue;
     const Corner corner = corner_at(problem.grid, row.pixel, k);
-    const double ax = static_cast<double>(corner.x_sign) * row.a.x(), ay = static_cast<double>(corner.y_sign) * row.a.y();
-    const std::array<std::pair<int, double>, 3> terms{{{corner.x_neighbor, ax}, {corner.y_neighbor, ay},
-                                                       {row.pixel, -ax - ay}}};
+    const double ax = static_cast<double>(corner.x_sign) * row.a.x(),
+                 ay = static_cast<double>(corner.y_sign) * row.a.y();
+    const std::array<std::pair<int, double>, 3> terms{
+        {{corner.x_neighbor, ax}, {corner.y_neighbor, ay}, {row.pixel, -ax - ay}}};
     for (const auto& [i, ai] : terms) {
       rhs[i] += ai * row.b;
       for (const auto& [j, aj] : terms)

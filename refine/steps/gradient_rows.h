@@ -30,7 +30,8 @@ struct GradientProblem {
 };
 
 /// Forward differences of x at a pixel, zero where it has no corner.
-Eigen::Vector2d forward_gradient(const PixelGrid& grid, const CornerList& corners, int p, const Eigen::VectorXd& x);
+Eigen::Vector2d forward_gradient(const PixelGrid& grid, const CornerList& corners, int p,
+                                 const Eigen::VectorXd& x);
 
 /// Normal equations: lower triangle and right-hand side.
 Eigen::SparseMatrix<double> normal_matrix(const GradientProblem& problem, Eigen::VectorXd& rhs);

@@ -21,7 +21,8 @@ class ImageAgreement {
  public:
   /// @param image exactly one; its channels are averaged  @param broad_normals [pixel] that the light is fitted to;
   /// @param lag pixels between the two of a pair. All must outlive this but the last.
-  ImageAgreement(const PixelGrid& grid, const Observations& image, const Eigen::Matrix3Xf& broad_normals, int lag);
+  ImageAgreement(const PixelGrid& grid, const Observations& image, const Eigen::Matrix3Xf& broad_normals,
+                 int lag);
 
   /// D above; 0 when no pair of usable pixels exists.
   double disagreement(const Eigen::Matrix3Xf& normals) const;

@@ -31,9 +31,7 @@ Eigen::Matrix<float, 9, 1> harmonics(const Eigen::Vector3f& n) {
 /// Q of n' Q n = s . (the last five harmonics).
 Eigen::Matrix3f second_order_matrix(const Eigen::Matrix<float, 5, 1>& s) {
   Eigen::Matrix3f Q;
-  Q << s[3] - s[4], s[0], s[1],
-       s[0], -s[3] - s[4], s[2],
-       s[1], s[2], 2 * s[4];
+  Q << s[3] - s[4], s[0], s[1], s[0], -s[3] - s[4], s[2], s[1], s[2], 2 * s[4];
   return Q;
 }
 
@@ -125,7 +123,8 @@ FirstOrderSums first_order_sums(const Observations& images, const SurfaceState& 
       tile.move_to(p, std::min(kernels::kTilePixels, end - p));
       for (size_t i = 0; i < shadows.size(); ++i) {
         kernels::LightSums of_image;
-        kernels::light_sums(tile.surface(), shadows[i], tile.image(static_cast<int>(i)), tile.count(), of_image);
+        kernels::light_sums(tile.surface(), shadows[i], tile.image(static_cast<int>(i)), tile.count(),
+                            of_image);
         sums.add(i, of_image);
       }
     }
@@ -133,7 +132,8 @@ FirstOrderSums first_order_sums(const Observations& images, const SurfaceState& 
   });
 }
 
-void estimate_first_order(const Observations& images, const SurfaceState& state, bool clamp, std::vector<Lamp>& lamps) {
+void estimate_first_order(const Observations& images, const SurfaceState& state, bool clamp,
+                          std::vector<Lamp>& lamps) {
   std::vector<kernels::TileLamp> shadows;
   for (const Lamp& lamp : lamps) {
     shadows.push_back(tile_lamp(lamp, state));
@@ -181,7 +181,8 @@ Eigen::Vector3d lamp_singular_values(const std::vector<Lamp>& lamps, const LampS
     }
   }
   if (count == 0) return Eigen::Vector3d::Zero();
-  const Eigen::Vector3d squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread / count).eigenvalues();
+  const Eigen::Vector3d squares =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread / count).eigenvalues();
   return squares.cwiseMax(0.0).cwiseSqrt().reverse();
 }
 

@@ -61,7 +61,8 @@ CornerList make_corners(const PixelGrid& grid, Stencil stencil, const std::vecto
   const int most = stencil == Stencil::forward ? 1 : kCorners;
   for (int p = 0; p < grid.size(); ++p) {
     const auto at = static_cast<size_t>(p);
-    list.present[at] = find_corners(most, [&](Neighbor n) { return reachable(grid, p, n, cut_right, cut_down) >= 0; });
+    list.present[at] =
+        find_corners(most, [&](Neighbor n) { return reachable(grid, p, n, cut_right, cut_down) >= 0; });
     if (list.present[at] != 0)
       list.weight[at] = 1.0f / static_cast<float>(count_bits(list.present[at]));
     else
@@ -73,11 +74,12 @@ CornerList make_corners(const PixelGrid& grid, Stencil stencil, const std::vecto
 NormalFrame normal_frame(const PixelGrid& grid, int p) {
   const Camera& camera = grid.camera;
   const cv::Point& pixel = grid.pixels[static_cast<size_t>(p)];
-  return {static_cast<float>(camera.fx), static_cast<float>(camera.fy), static_cast<float>(pixel.x - camera.cx),
-          static_cast<float>(pixel.y - camera.cy)};
+  return {static_cast<float>(camera.fx), static_cast<float>(camera.fy),
+          static_cast<float>(pixel.x - camera.cx), static_cast<float>(pixel.y - camera.cy)};
 }
 
-Eigen::Matrix3Xf surface_normals(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& zeta) {
+Eigen::Matrix3Xf surface_normals(const PixelGrid& grid, const CornerList& corners,
+                                 const Eigen::VectorXd& zeta) {
   Eigen::Matrix3Xf normals(3, grid.size());
   const ZetaImage image(grid, zeta);
   for_each_run(grid, [&](int y, const PixelRun& run) {

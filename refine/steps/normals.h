@@ -33,7 +33,8 @@ Corner corner_at(const PixelGrid& grid, int p, int k);
 /// with weight 0: a rough normal, no say in the shape.
 struct CornerList {
   std::vector<unsigned char> present;  ///< [pixel]: bit k for corner k; padded by kVectorPadding
-  std::vector<float> weight;           ///< [pixel]: of each corner, 1 / number of corners of the pixel; padded likewise
+  std::vector<float>
+      weight;  ///< [pixel]: of each corner, 1 / number of corners of the pixel; padded likewise
 
   bool has(int p, int k) const { return (present[static_cast<size_t>(p)] >> k & 1) != 0; }
 
@@ -42,7 +43,8 @@ struct CornerList {
 };
 
 /// @param cut_right, cut_down  1 where the step to that neighbour crosses a depth jump; may be empty.
-CornerList make_corners(const PixelGrid& grid, Stencil stencil, const std::vector<unsigned char>& cut_right = {},
+CornerList make_corners(const PixelGrid& grid, Stencil stencil,
+                        const std::vector<unsigned char>& cut_right = {},
                         const std::vector<unsigned char>& cut_down = {});
 
 /// Unnormalised normal of Eq. (5) and its derivative by the gradient (zeta_x, zeta_y).
@@ -66,6 +68,7 @@ inline Eigen::Vector2f corner_gradient(const Corner& corner, int p, const Eigen:
 }
 
 /// Unit normals (3 x pixels) from the mean gradient over each pixel's corners; a pixel without any corner faces the camera.
-Eigen::Matrix3Xf surface_normals(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& zeta);
+Eigen::Matrix3Xf surface_normals(const PixelGrid& grid, const CornerList& corners,
+                                 const Eigen::VectorXd& zeta);
 
 }  // namespace rakelight

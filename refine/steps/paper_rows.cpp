@@ -30,7 +30,8 @@ std::vector<GradientRow> ratio_rows(const PixelGrid& grid, const Observations& i
   return rows;
 }
 
-Eigen::Matrix3Xf orthographic_normals(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& z, double k) {
+Eigen::Matrix3Xf orthographic_normals(const PixelGrid& grid, const CornerList& corners,
+                                      const Eigen::VectorXd& z, double k) {
   Eigen::Matrix3Xf normals(3, z.size());
   for (int p = 0; p < static_cast<int>(z.size()); ++p) {
     const Eigen::Vector2d g = k * forward_gradient(grid, corners, p, z);

@@ -25,6 +25,7 @@ std::vector<GradientRow> shading_rows(const PixelGrid& grid, const CornerList& c
                                       const Eigen::VectorXd& z, double k);
 
 /// Eq. (4) with slopes k grad z.
-Eigen::Matrix3Xf orthographic_normals(const PixelGrid& grid, const CornerList& corners, const Eigen::VectorXd& z, double k);
+Eigen::Matrix3Xf orthographic_normals(const PixelGrid& grid, const CornerList& corners,
+                                      const Eigen::VectorXd& z, double k);
 
 }  // namespace rakelight

@@ -46,12 +46,13 @@ PhotometricTensor PhotometricTensors::operator[](size_t pixel) const {
 
 void PhotometricTensors::set(size_t pixel, const PhotometricTensor& tensor) {
   const Eigen::Matrix3f& G = tensor.G;
-  const float numbers[kParts] = {G(0, 0),     G(0, 1),     G(0, 2),     G(1, 1),     G(1, 2),
-                                 G(2, 2),     tensor.h[0], tensor.h[1], tensor.h[2], tensor.e0};
+  const float numbers[kParts] = {G(0, 0), G(0, 1),     G(0, 2),     G(1, 1),     G(1, 2),
+                                 G(2, 2), tensor.h[0], tensor.h[1], tensor.h[2], tensor.e0};
   for (size_t k = 0; k < kParts; ++k) parts_[k * stride_ + pixel] = numbers[k];
 }
 
-void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state, PhotometricTensors& tensors) {
+void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state,
+                            PhotometricTensors& tensors) {
   const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
   for_each_tile(images, state, [&](Tile& tile) {
     kernels::TileTensors sums{};
@@ -61,8 +62,9 @@ void reweigh_and_accumulate(const Observations& images, double scale, SurfaceSta
       kernels::cauchy_weight(tile.surface(), lamps[i], image, static_cast<float>(scale), weight);
       image.weight = weight.at;
       kernels::add_tensors(tile.surface(), lamps[i], image, sums);
-      std::copy_n(weight.at, tile.count(),
-                  state.weight.data() + i * static_cast<size_t>(images.pixels) + static_cast<size_t>(tile.begin()));
+      std::copy_n(
+          weight.at, tile.count(),
+          state.weight.data() + i * static_cast<size_t>(images.pixels) + static_cast<size_t>(tile.begin()));
     }
     store(sums, tile.begin(), tile.count(), tensors);
   });

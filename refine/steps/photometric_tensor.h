@@ -51,6 +51,7 @@ PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceS
 
 /// The same under new Cauchy weights (refine/steps/robust_weights.h), which the state keeps: both in one read of the images.
 /// @param scale k sigma of the weights  @param tensors of as many pixels
-void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state, PhotometricTensors& tensors);
+void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state,
+                            PhotometricTensors& tensors);
 
 }  // namespace rakelight

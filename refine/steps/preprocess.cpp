@@ -101,7 +101,8 @@ double measure_depth_noise(const cv::Mat1f& depth, double depth_unit_m) {
     }
   }
   const double quantization = depth_unit_m / std::sqrt(12.0);
-  return residuals.empty() ? quantization : std::max(quantization, 1.4826 * static_cast<double>(median_of(residuals)));
+  return residuals.empty() ? quantization
+                           : std::max(quantization, 1.4826 * static_cast<double>(median_of(residuals)));
 }
 
 cv::Mat1f inpaint_depth(const cv::Mat1f& depth, const cv::Mat1b& holes) {
@@ -113,7 +114,8 @@ cv::Mat1f inpaint_depth(const cv::Mat1f& depth, const cv::Mat1b& holes) {
   return filled;
 }
 
-SensorDepth preprocess_depth(const LightStack& stack, const cv::Mat1b& mask, const PreprocessOptions& options) {
+SensorDepth preprocess_depth(const LightStack& stack, const cv::Mat1b& mask,
+                             const PreprocessOptions& options) {
   SensorDepth result;
   result.camera = registered_depth_camera(stack);
   result.mask = mask;
@@ -121,14 +123,16 @@ SensorDepth preprocess_depth(const LightStack& stack, const cv::Mat1b& mask, con
   for (const Frame& frame : stack.frames)
     if (!frame.depth.empty()) frames.push_back(registered_depth(stack, frame));
   if (frames.empty()) {
-    throw InputError(stack.origin, "no depth frame", "refinement starts from a sensor's depth: add one under depth/");
+    throw InputError(stack.origin, "no depth frame",
+                     "refinement starts from a sensor's depth: add one under depth/");
   }
   result.frames = static_cast<int>(frames.size());
   result.measured = merge_depth_frames(frames);
   result.measured.setTo(kNaN, mask == 0);
   const cv::Mat1b known = finite_mask(result.measured);
   if (cv::countNonZero(known) == 0) {
-    throw InputError(stack.origin, "no depth reading inside the mask", "check that mask and depth show the same view");
+    throw InputError(stack.origin, "no depth reading inside the mask",
+                     "check that mask and depth show the same view");
   }
   result.inpainted = mask.clone();
   result.inpainted.setTo(0, known);

@@ -22,7 +22,8 @@ struct SensorDepth {
 };
 
 /// @param mask on the registered depth grid. @throws InputError when no pixel of it has depth.
-SensorDepth preprocess_depth(const LightStack& stack, const cv::Mat1b& mask, const PreprocessOptions& options);
+SensorDepth preprocess_depth(const LightStack& stack, const cv::Mat1b& mask,
+                             const PreprocessOptions& options);
 
 /// Median over the frames' readings a pixel; NaN where fewer than a third of the frames (at least one) see something.
 cv::Mat1f merge_depth_frames(const std::vector<cv::Mat1f>& frames);

@@ -13,10 +13,10 @@
 namespace rakelight {
 namespace {
 
-constexpr double kMinimumLit = 3;        // images: unknowns of a normal and an albedo
-constexpr double kMisfit = 2.5;          // residual of one image over the median of all
-constexpr double kDrift = 0.01;          // ambient light, linear radiance
-constexpr double kMovement = 3;          // depth noise deviations
+constexpr double kMinimumLit = 3;  // images: unknowns of a normal and an albedo
+constexpr double kMisfit = 2.5;    // residual of one image over the median of all
+constexpr double kDrift = 0.01;    // ambient light, linear radiance
+constexpr double kMovement = 3;    // depth noise deviations
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -37,11 +37,13 @@ void check_images(const Observations& images, const SurfaceState& state, Quality
   const double usual = median(scales);
   for (int i = 0; i < images.images; ++i) {
     if (scales[static_cast<size_t>(i)] <= kMisfit * usual) continue;
-    report.warnings.push_back("frame " + std::to_string(images.frame_index[static_cast<size_t>(i)]) + " (light " +
-                              images.light_ids[static_cast<size_t>(i)] +
-                              ") does not fit the others: the object, the camera or the ambient light may have changed");
+    report.warnings.push_back(
+        "frame " + std::to_string(images.frame_index[static_cast<size_t>(i)]) + " (light " +
+        images.light_ids[static_cast<size_t>(i)] +
+        ") does not fit the others: the object, the camera or the ambient light may have changed");
   }
-  report.measures["worst_image_misfit"] = usual > 0 ? *std::max_element(scales.begin(), scales.end()) / usual : 1;
+  report.measures["worst_image_misfit"] =
+      usual > 0 ? *std::max_element(scales.begin(), scales.end()) / usual : 1;
 }
 
 }  // namespace
@@ -53,7 +55,8 @@ Eigen::VectorXd lit_images(const Observations& images, const SurfaceState& state
     const float* weight = state.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
     for (int p = 0; p < images.pixels; ++p) {
       const LocalLight light = light_at(lamp, state.points.col(p), state.scene);
-      if (lamp.second_order || (light.l * state.normals.col(p)).maxCoeff() > 0.0f) lit[p] += static_cast<double>(weight[p]);
+      if (lamp.second_order || (light.l * state.normals.col(p)).maxCoeff() > 0.0f)
+        lit[p] += static_cast<double>(weight[p]);
     }
   }
   return lit;
@@ -66,7 +69,8 @@ QualityReport assess_quality(const RefineProblem& problem, const SurfaceState& s
   report.measures["too_few_lit"] = few;
   if (few > 0.01 && problem.images.images > kMinimumLit) {
     report.warnings.push_back(sentence(
-        "%.0f %% of the surface is lit in fewer than three images: its shape there rests on the sensor", 100 * few));
+        "%.0f %% of the surface is lit in fewer than three images: its shape there rests on the sensor",
+        100 * few));
   }
   check_images(problem.images, state, report);
   return report;
@@ -95,8 +99,9 @@ std::vector<std::string> recording_warnings(const LightStack& stack, const Senso
     }
     const double shift = std::abs(median(std::move(apart)));
     if (shift > kMovement * sensor.noise_m)
-      warnings.push_back("depth frame " + std::to_string(frame.index) +
-                         sentence(" lies %.1f mm from the others: the object or the camera may have moved", 1e3 * shift));
+      warnings.push_back(
+          "depth frame " + std::to_string(frame.index) +
+          sentence(" lies %.1f mm from the others: the object or the camera may have moved", 1e3 * shift));
   }
   return warnings;
 }

@@ -14,8 +14,9 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 bool same_view(const Camera& a, const Camera& b) {
   constexpr double kPixel = 0.05;  // a twentieth of a pixel does not matter
-  return a.size() == b.size() && a.distortion.empty() && b.distortion.empty() && std::abs(a.cx - b.cx) < kPixel &&
-         std::abs(a.cy - b.cy) < kPixel && std::abs(a.fx / b.fx - 1) < 1e-4 && std::abs(a.fy / b.fy - 1) < 1e-4;
+  return a.size() == b.size() && a.distortion.empty() && b.distortion.empty() &&
+         std::abs(a.cx - b.cx) < kPixel && std::abs(a.cy - b.cy) < kPixel &&
+         std::abs(a.fx / b.fx - 1) < 1e-4 && std::abs(a.fy / b.fy - 1) < 1e-4;
 }
 
 /// Rays of the depth camera's pixels, (x/z, y/z), distortion removed.
@@ -37,7 +38,8 @@ cv::Mat1f project_depth(const LightStack& stack, const cv::Mat1w& raw, const Cam
   for (int v = 0; v < raw.rows; ++v) {
     for (int u = 0; u < raw.cols; ++u) {
       if (raw(v, u) == 0) continue;
-      const cv::Point2d& ray = rays[static_cast<size_t>(v) * static_cast<size_t>(raw.cols) + static_cast<size_t>(u)];
+      const cv::Point2d& ray =
+          rays[static_cast<size_t>(v) * static_cast<size_t>(raw.cols) + static_cast<size_t>(u)];
       const Eigen::Vector3d p = R * (Eigen::Vector3d(ray.x, ray.y, 1) * (raw(v, u) * stack.depth_unit_m)) + t;
       if (p.z() <= 0) continue;
       const int x = static_cast<int>(std::lround(target.fx * p.x() / p.z() + target.cx));

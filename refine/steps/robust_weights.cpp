@@ -14,8 +14,7 @@ Eigen::Vector3f residual(const Observations& images, const SurfaceState& state, 
   const Eigen::Vector3f n = state.normals.col(p);
   const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), n, state.scene);
   const Eigen::Vector3f S = shading(light, n, state.attached_shadows);
-  return state.albedo.col(p).cwiseProduct(S) -
-         images.radiance_at(i, p);
+  return state.albedo.col(p).cwiseProduct(S) - images.radiance_at(i, p);
 }
 
 /// Median of |value(image, pixel)| over usable samples and channels of images [first, last), from a fixed choice of pixels.
@@ -64,7 +63,8 @@ std::vector<float> cauchy_weights(const Observations& images, const SurfaceState
   for_each_tile(images, state, [&](Tile& tile) {
     kernels::TileRow row;
     for (size_t i = 0; i < lamps.size(); ++i) {
-      kernels::cauchy_weight(tile.surface(), lamps[i], tile.image(static_cast<int>(i)), static_cast<float>(scale), row);
+      kernels::cauchy_weight(tile.surface(), lamps[i], tile.image(static_cast<int>(i)),
+                             static_cast<float>(scale), row);
       std::copy_n(row.at, tile.count(),
                   weight.data() + i * static_cast<size_t>(images.pixels) + static_cast<size_t>(tile.begin()));
     }
@@ -78,7 +78,8 @@ std::vector<float> usable_weights(const Observations& images) {
     for (int i = 0; i < images.images; ++i) {
       float* of_image = weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images.pixels);
       for (int p = begin; p < end; ++p)
-        of_image[p] = images.usable(i, 0, p) || images.usable(i, 1, p) || images.usable(i, 2, p) ? 1.0f : 0.0f;
+        of_image[p] =
+            images.usable(i, 0, p) || images.usable(i, 1, p) || images.usable(i, 2, p) ? 1.0f : 0.0f;
     }
   });
   return weight;

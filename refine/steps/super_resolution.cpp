@@ -77,8 +77,8 @@ void add_prior(const DepthPrior& prior, const Eigen::VectorXd& zeta, DepthSystem
     for (int p = begin; p < end; ++p) {
       const int cell = prior.cells.cell_of[static_cast<size_t>(p)];
       system.diagonal[static_cast<size_t>(p)] += static_cast<float>(prior.floor);
-      system.rhs[p] +=
-          pull[cell] / static_cast<double>(prior.cells.of(cell).size()) + prior.floor * (prior.start[p] - zeta[p]);
+      system.rhs[p] += pull[cell] / static_cast<double>(prior.cells.of(cell).size()) +
+                       prior.floor * (prior.start[p] - zeta[p]);
     }
   });
 }

@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
   for (const Step& step : steps) {
     benchmark::RegisterBenchmark(step.name.c_str(), [&](benchmark::State& run) {
       for (auto _ : run) step.run();
-      run.counters["stream"] =
-          benchmark::Counter(step.bytes / speed, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+      run.counters["stream"] = benchmark::Counter(
+          step.bytes / speed, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     })->Unit(benchmark::kMillisecond);
   }
   benchmark::Initialize(&argc, argv);

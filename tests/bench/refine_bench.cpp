@@ -41,7 +41,8 @@ void outer_iterations(benchmark::State& run, Size size, bool robust) {
   double best = 1e9;
   for (auto _ : run) {
     const auto begin = std::chrono::steady_clock::now();
-    benchmark::DoNotOptimize(refine_multi_light(problem, options, [](int, double, const Eigen::VectorXd&) {}));
+    benchmark::DoNotOptimize(
+        refine_multi_light(problem, options, [](int, double, const Eigen::VectorXd&) {}));
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
   const double pixels = problem.grid.size();
@@ -50,8 +51,10 @@ void outer_iterations(benchmark::State& run, Size size, bool robust) {
   run.counters["ns_px_it"] = 1e9 * best / pixels / 10;
 }
 
-constexpr Size kVga{"vga_x10", 640, 480, 10}, kSxga{"1280x960_x20", 1280, 960, 20}, kFive{"5Mpx_x10", 2592, 1944, 10};
-constexpr Size kSmall{"50kpx_x10", 256, 192, 10}, kFour{"vga_x4", 640, 480, 4}, kMany{"vga_x96", 640, 480, 96};
+constexpr Size kVga{"vga_x10", 640, 480, 10}, kSxga{"1280x960_x20", 1280, 960, 20},
+    kFive{"5Mpx_x10", 2592, 1944, 10};
+constexpr Size kSmall{"50kpx_x10", 256, 192, 10}, kFour{"vga_x4", 640, 480, 4},
+    kMany{"vga_x96", 640, 480, 96};
 
 void add_benchmarks() {
   for (const Size& size : {kSmall, kVga, kSxga, kFive, kFour, kMany}) {

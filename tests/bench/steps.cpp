@@ -59,8 +59,8 @@ std::vector<Step> iteration_steps() {
   cv::setNumThreads(1);
   const auto m = std::make_shared<Middle>();
   const double pixels = m->problem.grid.size();
-  constexpr double kSamples = kImages * 3 * 2, kWeights = kImages * 4, kSurface = 24, kTensor = 40, kCornerWeights = 16,
-                   kSystem = 28, kZeta = 8, kSolve = 300;  // bytes a pixel
+  constexpr double kSamples = kImages * 3 * 2, kWeights = kImages * 4, kSurface = 24, kTensor = 40,
+                   kCornerWeights = 16, kSystem = 28, kZeta = 8, kSolve = 300;  // bytes a pixel
   return {
       {"lights", pixels * (kSamples + kWeights + kSurface), 12,
        [m] { estimate_far_lamps(m->problem.images, m->state); }},
@@ -72,7 +72,8 @@ std::vector<Step> iteration_steps() {
        [m] { corner_weights(m->problem.grid, m->problem.corners, m->tensors, m->state.zeta, kEdgeWeight); }},
       {"system", pixels * (kTensor + kCornerWeights + kZeta + kSystem), 20,
        [m] { depth_system(*m->depth, m->state.zeta, Linearization::gauss_newton); }},
-      {"energy", pixels * (kTensor + kCornerWeights + kZeta), 8, [m] { depth_energy(*m->depth, m->state.zeta); }},
+      {"energy", pixels * (kTensor + kCornerWeights + kZeta), 8,
+       [m] { depth_energy(*m->depth, m->state.zeta); }},
       {"solve to 1e-2", pixels * kSolve, 16, solve_to(m, 2)},
       {"solve to 1e-4", pixels * kSolve, 20, solve_to(m, 4)},
       {"solve to 1e-6", pixels * kSolve, 26, solve_to(m, 6)},

@@ -58,8 +58,8 @@ TEST_F(Refine, WritesOnlyTheOutputsAskedFor) {
   EXPECT_THAT(ran.out, Not(HasSubstr("mesh.ply")));
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(out())) names.insert(entry.path().filename());
-  EXPECT_EQ(names, (std::set<std::string>{"depth.tiff", "depth.png", "initial_depth.tiff", "normals.tiff", "normals.png",
-                                          "result.json"}));
+  EXPECT_EQ(names, (std::set<std::string>{"depth.tiff", "depth.png", "initial_depth.tiff", "normals.tiff",
+                                          "normals.png", "result.json"}));
 }
 
 TEST_F(Refine, RefusesAnOutputItDoesNotKnow) {
@@ -126,8 +126,8 @@ TEST_F(Refine, TakesParametersFromTheFileAndTheCommandLineOverThem) {
 }
 
 TEST_F(Refine, TakesTheSolverAndTheLightModelFromTheCommandLine) {
-  const Ran ran = refine({"--solver", "exact", "--lamps", "far", "--lamp-positions", "start", "--harmonics", "2",
-                          "--iterations", "3", "--scale", "1"});
+  const Ran ran = refine({"--solver", "exact", "--lamps", "far", "--lamp-positions", "start", "--harmonics",
+                          "2", "--iterations", "3", "--scale", "1"});
   ASSERT_TRUE(fs::exists(out() / "result.json")) << ran.err;
   const auto options = manifest().at("options");
   EXPECT_EQ(options.at("depth").at("solver"), "exact");

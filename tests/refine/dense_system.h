@@ -12,15 +12,15 @@ namespace rakelight::test {
 
 /// K: the mean over each cell, cells x pixels.
 inline Eigen::MatrixXd dense_means(const DepthCells& cells) {
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(cells.size(),
-                                            static_cast<Eigen::Index>(cells.cell_of.size()));
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(cells.size(), static_cast<Eigen::Index>(cells.cell_of.size()));
   for (int cell = 0; cell < cells.size(); ++cell)
     for (const int p : cells.of(cell)) K(cell, p) = 1.0 / static_cast<double>(cells.of(cell).size());
   return K;
 }
 
 /// Stencil + K' Lambda K.
-inline Eigen::MatrixXd dense_matrix(const PixelGrid& grid, const DepthCells& cells, const DepthSystem& system) {
+inline Eigen::MatrixXd dense_matrix(const PixelGrid& grid, const DepthCells& cells,
+                                    const DepthSystem& system) {
   const Eigen::MatrixXd K = dense_means(cells);
   Eigen::MatrixXd A = K.transpose() * system.cell_weight.asDiagonal() * K;
   const auto add = [&](int p, int u, int v, float entry) {

@@ -77,8 +77,8 @@ TEST(Evaluate, CountsTheErrorsInsideTheErrorBars) {
   cv::Mat3f bars(depth.size(), cv::Vec3f(0.001f, 0.1f, 8));
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
-      depth(y, x) += x % 2 == 0 ? 0.0005f : -0.0005f;                            // inside
-      if (y % 4 == 0) bars(y, x) = cv::Vec3f(0.0001f, 0.1f, 8);                  // outside: a quarter
+      depth(y, x) += x % 2 == 0 ? 0.0005f : -0.0005f;            // inside
+      if (y % 4 == 0) bars(y, x) = cv::Vec3f(0.0001f, 0.1f, 8);  // outside: a quarter
     }
   }
   cv::Mat3f normals = plane.truth.normals.clone();

@@ -51,7 +51,8 @@ inline Eigen::Matrix3Xf varied_albedo(const ExactSurface& surface) {
   Eigen::Matrix3Xf albedo(3, surface.grid.size());
   for (int p = 0; p < surface.grid.size(); ++p) {
     const auto t = static_cast<float>(p);
-    albedo.col(p) << 0.6f + 0.4f * std::sin(t), 0.6f + 0.4f * std::cos(0.7f * t), 0.6f + 0.4f * std::sin(1.3f * t);
+    albedo.col(p) << 0.6f + 0.4f * std::sin(t), 0.6f + 0.4f * std::cos(0.7f * t),
+        0.6f + 0.4f * std::sin(1.3f * t);
   }
   return albedo;
 }
@@ -67,7 +68,8 @@ inline Lamp far_lamp(float x, float y) {
 }
 
 inline std::vector<Lamp> far_lamps() {
-  return {far_lamp(0.5f, 0.0f), far_lamp(0.0f, 0.5f), far_lamp(-0.5f, 0.1f), far_lamp(0.1f, -0.6f), far_lamp(0, 0)};
+  return {far_lamp(0.5f, 0.0f), far_lamp(0.0f, 0.5f), far_lamp(-0.5f, 0.1f), far_lamp(0.1f, -0.6f),
+          far_lamp(0, 0)};
 }
 
 /// The same with second-order harmonics.
@@ -77,9 +79,7 @@ inline std::vector<Lamp> second_order_lamps() {
     lamps[i].second_order = true;
     for (size_t c = 0; c < 3; ++c) {
       const float a = 0.05f * static_cast<float>(i + 1), b = 0.04f * static_cast<float>(c + 1), d = 0.1f - a;
-      lamps[i].Q[c] << a, d, b,
-                       d, b, a,
-                       b, a, -a - b;
+      lamps[i].Q[c] << a, d, b, d, b, a, b, a, -a - b;
     }
   }
   return lamps;
@@ -102,7 +102,8 @@ inline SurfaceState exact_state(const ExactSurface& surface, const Eigen::Matrix
 
 /// Index of a sample in PlainSamples.
 inline size_t sample_index(const Observations& images, int image, int channel, int pixel) {
-  return (static_cast<size_t>(image) * 3 + static_cast<size_t>(channel)) * static_cast<size_t>(images.pixels) +
+  return (static_cast<size_t>(image) * 3 + static_cast<size_t>(channel)) *
+             static_cast<size_t>(images.pixels) +
          static_cast<size_t>(pixel);
 }
 
@@ -114,7 +115,8 @@ inline Observations images_of(const SurfaceState& state) {
   for (int i = 0; i < images.images; ++i) {
     for (int p = 0; p < images.pixels; ++p) {
       const Eigen::Vector3f n = state.normals.col(p);
-      const LocalLight light = light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), n, state.scene);
+      const LocalLight light =
+          light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), n, state.scene);
       const Eigen::Vector3f S = shading(light, n, state.attached_shadows);
       for (int c = 0; c < 3; ++c) samples.radiance[sample_index(images, i, c, p)] = state.albedo(c, p) * S[c];
     }

@@ -109,7 +109,8 @@ TEST(RefineDepth, GivesEachImagesLight) {
     EXPECT_EQ(light.id, "lamp-" + std::to_string(i));
     EXPECT_EQ(light.frame_index, static_cast<int>(i));
     const double angle = 2 * CV_PI * static_cast<double>(i) / 8;
-    const Eigen::Vector3d truth = Eigen::Vector3d(0.6 * std::cos(angle), 0.6 * std::sin(angle), -1).normalized();
+    const Eigen::Vector3d truth =
+        Eigen::Vector3d(0.6 * std::cos(angle), 0.6 * std::sin(angle), -1).normalized();
     const Eigen::Vector3d found = light.sh_rgb.row(0).head<3>().transpose().normalized();
     EXPECT_GT(found.dot(truth), std::cos(8 * CV_PI / 180)) << light.id;
   }
@@ -143,7 +144,8 @@ TEST(RefineDepth, TheEnergyDoesNotRiseInAnyDepthStep) {
 }
 
 bool same_bytes(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && a.type() == b.type() && std::memcmp(a.data, b.data, a.total() * a.elemSize()) == 0;
+  return a.size() == b.size() && a.type() == b.type() &&
+         std::memcmp(a.data, b.data, a.total() * a.elemSize()) == 0;
 }
 
 TEST(RefineDepth, TheResultDoesNotDependOnTheNumberOfThreads) {
@@ -242,22 +244,30 @@ TEST(RefineDepth, SubtractsTheDarkFrame) {
   options.max_iterations = 3;
   const RefineResult lit = refine_depth(stack, options), plain = refine_depth(bump_stack(), options);
   EXPECT_EQ(lit.lights.size(), 8U);
-  EXPECT_LT(cv::norm(lit.depth(cv::Rect(5, 5, 30, 20)), plain.depth(cv::Rect(5, 5, 30, 20)), cv::NORM_INF), 1e-5);
+  EXPECT_LT(cv::norm(lit.depth(cv::Rect(5, 5, 30, 20)), plain.depth(cv::Rect(5, 5, 30, 20)), cv::NORM_INF),
+            1e-5);
 }
 
 TEST(RefineDepth, RefusesAScaleFinerThanTheColour) {
-  EXPECT_THAT(message_of<UsageError>([] { refine_depth(bump_stack(), at_scale(3)); }), HasSubstr("2 times as fine"));
+  EXPECT_THAT(message_of<UsageError>([] { refine_depth(bump_stack(), at_scale(3)); }),
+              HasSubstr("2 times as fine"));
 }
 
 TEST(RefineDepth, RefusesFewerThanFourImages) {
-  EXPECT_THAT(message_of<InputError>([] { refine_depth(with_frames({0, 2, 5}), at_scale(1)); }),
+  EXPECT_THAT(message_of<InputError>([] {
+                refine_depth(with_frames({0, 2, 5}), at_scale(1));
+              }),
               HasSubstr("at least 4"));
 }
 
 TEST(RefineDepth, RefusesLampsThatDoNotDetermineTheShape) {
-  EXPECT_THAT(message_of<InputError>([] { refine_depth(with_frames({1, 1, 1, 1}), at_scale(1)); }),
+  EXPECT_THAT(message_of<InputError>([] {
+                refine_depth(with_frames({1, 1, 1, 1}), at_scale(1));
+              }),
               HasSubstr("all from one"));
-  EXPECT_THAT(message_of<InputError>([] { refine_depth(with_frames({0, 4, 0, 4}), at_scale(1)); }),
+  EXPECT_THAT(message_of<InputError>([] {
+                refine_depth(with_frames({0, 4, 0, 4}), at_scale(1));
+              }),
               HasSubstr("in one plane"));
 }
 

@@ -17,7 +17,8 @@ namespace rakelight {
 namespace {
 
 /// Refines `folder` as fine as its colour allows and holds the result against the folder's truth.
-RefineResult expect_errors_at_most(const std::filesystem::path& folder, Preset preset, double rmse_mm, double mae_deg) {
+RefineResult expect_errors_at_most(const std::filesystem::path& folder, Preset preset, double rmse_mm,
+                                   double mae_deg) {
   RefineResult result = refine_depth(read_stack(folder), preset_options(preset));
   const Evaluation found = evaluate(result.camera, result.depth, result.normals, read_truth(folder));
   EXPECT_LE(found.rmse_mm, rmse_mm);

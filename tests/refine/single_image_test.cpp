@@ -108,7 +108,8 @@ TEST_P(EverySingleImageMethod, StaysFiniteWhereTheImageSaysLittle) {
 
 TEST_P(EverySingleImageMethod, TakesTheFrameAskedFor) {
   LightStack stack = color_lit_bump();
-  for (Light& light : stack.lights) light.color = LampColor::rgb;  // else rgb-ratio sees that one lamp was lit
+  for (Light& light : stack.lights)
+    light.color = LampColor::rgb;  // else rgb-ratio sees that one lamp was lit
   RefineOptions options = options_of(GetParam());
   options.frame = stack.frames[1].index;
   const RefineResult result = refine_depth(stack, options);
@@ -158,7 +159,8 @@ TEST(SingleImage, RgbRatioRefusesAnImageUnderOneWhiteLampAndNamesTheMethodThatFi
 TEST(SingleImage, RgbRatioTakesColouredLampsWhetherTheStackNamesThemOrNot) {
   LightStack stack = color_lit_bump();
   cv::Mat channels[3], together;  // blue, green, red in memory
-  for (int c = 0; c < 3; ++c) cv::extractChannel(stack.frames[static_cast<size_t>(c)].color, channels[2 - c], 2 - c);
+  for (int c = 0; c < 3; ++c)
+    cv::extractChannel(stack.frames[static_cast<size_t>(c)].color, channels[2 - c], 2 - c);
   cv::merge(channels, 3, together);
   stack.frames.resize(1);
   stack.frames.front().color = together;
@@ -166,7 +168,8 @@ TEST(SingleImage, RgbRatioTakesColouredLampsWhetherTheStackNamesThemOrNot) {
     for (Light& light : stack.lights) light.color = color;
     const RefineResult result = refine_depth(stack, options_of(Method::rgb_ratio));
     EXPECT_GT(result.quality.at("lamp_spread"), 0.1);
-    for (const std::string& warning : result.warnings) EXPECT_THAT(warning, testing::Not(HasSubstr("same side")));
+    for (const std::string& warning : result.warnings)
+      EXPECT_THAT(warning, testing::Not(HasSubstr("same side")));
   }
 }
 

@@ -26,9 +26,7 @@ TEST(InParallel, ThrowsWhatTheFirstThatFailedThrew) {
       if (k == 7 || k == 31) throw std::runtime_error(std::to_string(k));
     });
     FAIL() << "nothing was thrown";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "7");
-  }
+  } catch (const std::runtime_error& error) { EXPECT_STREQ(error.what(), "7"); }
   EXPECT_EQ(ran, 50);
 }
 

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <assimp/Importer.hpp>
 
-
 #include "refine/output/glb.h"
 #include "refine/output/ply.h"
 #include "stack/color_response.h"

@@ -27,8 +27,7 @@ struct RandomSystem {
         (*entries)[p] = static_cast<float>(uniform(random));
       system.rhs[static_cast<Eigen::Index>(p)] = uniform(random);
     }
-    system.cell_weight = Eigen::VectorXd::NullaryExpr(cells.size(),
-                                                      [&] { return 2 + uniform(random); });
+    system.cell_weight = Eigen::VectorXd::NullaryExpr(cells.size(), [&] { return 2 + uniform(random); });
   }
 
   Eigen::MatrixXd dense() const { return test::dense_matrix(grid, cells, system); }

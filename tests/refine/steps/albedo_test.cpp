@@ -40,9 +40,11 @@ TEST(Albedo, IgnoresSamplesThatAreNotTrusted) {
 TEST(Albedo, IsTheWeightedLeastSquaresAnswer) {
   LitSphere lit;
   test::change_samples(lit.images, [](PlainSamples& samples) {
-    for (size_t k = 0; k < samples.radiance.size(); ++k) samples.radiance[k] += 0.1f * static_cast<float>(k % 3);
+    for (size_t k = 0; k < samples.radiance.size(); ++k)
+      samples.radiance[k] += 0.1f * static_cast<float>(k % 3);
   });
-  for (size_t k = 0; k < lit.state.weight.size(); ++k) lit.state.weight[k] = 0.2f + 0.2f * static_cast<float>(k % 4);
+  for (size_t k = 0; k < lit.state.weight.size(); ++k)
+    lit.state.weight[k] = 0.2f + 0.2f * static_cast<float>(k % 4);
   const Eigen::Matrix3Xf found = estimate_albedo(lit.images, lit.state);
   const int p = lit.images.pixels / 2;
   float numerator = 0, denominator = 0;
@@ -59,7 +61,8 @@ TEST(Albedo, IsTheWeightedLeastSquaresAnswer) {
 TEST(Albedo, OfAPixelThatNoSampleLightsStaysAsItWas) {
   LitSphere lit;
   lit.state.albedo.setConstant(0.123f);
-  for (int i = 0; i < lit.images.images; ++i) lit.state.weight[static_cast<size_t>(i * lit.images.pixels + 7)] = 0;
+  for (int i = 0; i < lit.images.images; ++i)
+    lit.state.weight[static_cast<size_t>(i * lit.images.pixels + 7)] = 0;
   EXPECT_EQ(estimate_albedo(lit.images, lit.state).col(7), Eigen::Vector3f::Constant(0.123f));
 }
 

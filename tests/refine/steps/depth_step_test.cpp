@@ -30,7 +30,8 @@ class RandomProblem {
     tensors_ = PhotometricTensors(pixels);
     corner_weight_ = CornerWeights(pixels);
     for (size_t p = 0; p < pixels; ++p) {
-      for (int i = 0; i < 5; ++i) add_row(p, Eigen::Vector3d(uniform(), uniform(), -1), 0.8 + 0.4 * uniform());
+      for (int i = 0; i < 5; ++i)
+        add_row(p, Eigen::Vector3d(uniform(), uniform(), -1), 0.8 + 0.4 * uniform());
       for (int k = 0; k < kCorners; ++k)
         if (corners_.has(static_cast<int>(p), k))
           corner_weight_[p][static_cast<size_t>(k)] = static_cast<float>(0.6 + 0.4 * uniform());
@@ -94,7 +95,8 @@ class RandomProblem {
 Eigen::Vector3d normal_at(const PixelGrid& grid, int p, double zx, double zy) {
   const cv::Point at = grid.pixels[static_cast<size_t>(p)];
   const Camera& camera = grid.camera;
-  return Eigen::Vector3d(camera.fx * zx, camera.fy * zy, -1 - (at.x - camera.cx) * zx - (at.y - camera.cy) * zy)
+  return Eigen::Vector3d(camera.fx * zx, camera.fy * zy,
+                         -1 - (at.x - camera.cx) * zx - (at.y - camera.cy) * zy)
       .normalized();
 }
 
@@ -110,17 +112,22 @@ Eigen::VectorXd RandomProblem::dense_step(const Eigen::VectorXd& zeta) const {
       if (!corners_.has(p, k)) continue;
       const Corner corner = corner_at(grid_, p, k);
       const double sx = corner.x_sign > 0 ? 1 : -1, sy = corner.y_sign > 0 ? 1 : -1;
-      const double zx = sx * (zeta[corner.x_neighbor] - zeta[p]), zy = sy * (zeta[corner.y_neighbor] - zeta[p]);
+      const double zx = sx * (zeta[corner.x_neighbor] - zeta[p]),
+                   zy = sy * (zeta[corner.y_neighbor] - zeta[p]);
       const double h = 1e-6;  // the derivative of n, by differences
       const Eigen::Vector3d n = normal_at(grid_, p, zx, zy);
-      const Eigen::Vector3d n_x = (normal_at(grid_, p, zx + h, zy) - normal_at(grid_, p, zx - h, zy)) / (2 * h);
-      const Eigen::Vector3d n_y = (normal_at(grid_, p, zx, zy + h) - normal_at(grid_, p, zx, zy - h)) / (2 * h);
+      const Eigen::Vector3d n_x =
+          (normal_at(grid_, p, zx + h, zy) - normal_at(grid_, p, zx - h, zy)) / (2 * h);
+      const Eigen::Vector3d n_y =
+          (normal_at(grid_, p, zx, zy + h) - normal_at(grid_, p, zx, zy - h)) / (2 * h);
       for (const Row& equation : rows_[static_cast<size_t>(p)]) {
         Eigen::VectorXd row = Eigen::VectorXd::Zero(grid_.size());
         row[corner.x_neighbor] += sx * equation.l.dot(n_x);
         row[corner.y_neighbor] += sy * equation.l.dot(n_y);
         row[p] -= sx * equation.l.dot(n_x) + sy * equation.l.dot(n_y);
-        const double weight = equation.weight * static_cast<double>(corner_weight_[static_cast<size_t>(p)][static_cast<size_t>(k)]);
+        const double weight =
+            equation.weight *
+            static_cast<double>(corner_weight_[static_cast<size_t>(p)][static_cast<size_t>(k)]);
         add(weight, row, equation.rest - equation.l.dot(n));
       }
     }
@@ -136,7 +143,8 @@ Eigen::VectorXd RandomProblem::dense_step(const Eigen::VectorXd& zeta) const {
 
 TEST(Tensors, OfSecondOrderLampsHaveTheSlopeOfTheTrueEnergy) {
   const test::ExactSurface sphere = test::exact_sphere(24);
-  SurfaceState state = test::exact_state(sphere, test::varied_albedo(sphere), test::second_order_lamps(), false);
+  SurfaceState state =
+      test::exact_state(sphere, test::varied_albedo(sphere), test::second_order_lamps(), false);
   Observations images = test::images_of(state);
   test::change_samples(images, [](PlainSamples& samples) {
     for (float& radiance : samples.radiance) radiance *= 0.9f;
@@ -148,8 +156,10 @@ TEST(Tensors, OfSecondOrderLampsHaveTheSlopeOfTheTrueEnergy) {
       const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
       for (int c = 0; c < 3; ++c) {
         const Eigen::Matrix3d Q = lamp.Q[static_cast<size_t>(c)].cast<double>();
-        const double S = lamp.l.row(c).cast<double>().dot(n) + n.dot(Q * n) + static_cast<double>(lamp.phi[c]);
-        sum += std::pow(static_cast<double>(state.albedo(c, p)) * S - static_cast<double>(images.channel(i, c)[p]), 2);
+        const double S =
+            lamp.l.row(c).cast<double>().dot(n) + n.dot(Q * n) + static_cast<double>(lamp.phi[c]);
+        sum += std::pow(
+            static_cast<double>(state.albedo(c, p)) * S - static_cast<double>(images.channel(i, c)[p]), 2);
       }
     }
     return sum;
@@ -157,7 +167,8 @@ TEST(Tensors, OfSecondOrderLampsHaveTheSlopeOfTheTrueEnergy) {
   for (int p = 0; p < sphere.grid.size(); p += 7) {
     const Eigen::Vector3d n = state.normals.col(p).cast<double>();
     const PhotometricTensor tensor = tensors[static_cast<size_t>(p)];
-    EXPECT_NEAR(static_cast<double>(tensor.energy(n.cast<float>())), energy(p, n), 1e-4 + 1e-3 * energy(p, n));
+    EXPECT_NEAR(static_cast<double>(tensor.energy(n.cast<float>())), energy(p, n),
+                1e-4 + 1e-3 * energy(p, n));
     const Eigen::Vector3d slope = 2 * (tensor.G * n.cast<float>() - tensor.h).cast<double>();
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d h = 1e-5 * Eigen::Vector3d::Unit(k);
@@ -288,8 +299,10 @@ TEST(AccumulateTensors, TheirEnergyIsTheSumOverTheImages) {
     const SpoiltImages spoilt(attached_shadows);
     const auto tensors = accumulate_tensors(spoilt.images, spoilt.state);
     for (int p = 0; p < spoilt.images.pixels; ++p) {
-      for (const Eigen::Vector3f& n : {Eigen::Vector3f(spoilt.state.normals.col(p)), Eigen::Vector3f(0, 0.6f, -0.8f)})
-        EXPECT_NEAR(static_cast<double>(tensors[static_cast<size_t>(p)].energy(n)), spoilt.energy(p, n), 1e-4);
+      for (const Eigen::Vector3f& n :
+           {Eigen::Vector3f(spoilt.state.normals.col(p)), Eigen::Vector3f(0, 0.6f, -0.8f)})
+        EXPECT_NEAR(static_cast<double>(tensors[static_cast<size_t>(p)].energy(n)), spoilt.energy(p, n),
+                    1e-4);
     }
   }
 }

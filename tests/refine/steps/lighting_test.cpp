@@ -129,10 +129,11 @@ Lamp from_direction(float x, float y, float z) {
 }
 
 TEST(LampSingularValues, TellThreeDirectionsFromTwoAndOne) {
-  const std::vector<Lamp> three{from_direction(2, 0, 0), from_direction(0, 1, 0), from_direction(0, 0, -0.5f)};
+  const std::vector<Lamp> three{from_direction(2, 0, 0), from_direction(0, 1, 0),
+                                from_direction(0, 0, -0.5f)};
   EXPECT_TRUE(lamp_singular_values(three, {}).isApprox(Eigen::Vector3d::Constant(std::sqrt(1.0 / 3)), 1e-6));
-  const std::vector<Lamp> plane{from_direction(0.5f, 0, -1), from_direction(-0.5f, 0, -1), from_direction(0.1f, 0, -1),
-                                from_direction(0, 0, -2)};
+  const std::vector<Lamp> plane{from_direction(0.5f, 0, -1), from_direction(-0.5f, 0, -1),
+                                from_direction(0.1f, 0, -1), from_direction(0, 0, -2)};
   const Eigen::Vector3d flat = lamp_singular_values(plane, {});
   EXPECT_GT(flat[1], 0.1);
   EXPECT_NEAR(flat[2], 0, 1e-6);

@@ -23,8 +23,10 @@ struct NoisyPlane {
   explicit NoisyPlane(int times) : scale(times) {
     const int side = 96 * scale;
     const double middle = 0.5 * (side - 1);
-    grid = make_pixel_grid({side, side, 2.0 * side, 2.0 * side, middle, middle, {}}, cv::Mat1b(side, side, uchar{255}));
-    test::ExactSurface plane{grid, Eigen::VectorXd::Zero(grid.size()), Eigen::Matrix3Xf::Zero(3, grid.size()), {}};
+    grid = make_pixel_grid({side, side, 2.0 * side, 2.0 * side, middle, middle, {}},
+                           cv::Mat1b(side, side, uchar{255}));
+    test::ExactSurface plane{
+        grid, Eigen::VectorXd::Zero(grid.size()), Eigen::Matrix3Xf::Zero(3, grid.size()), {}};
     plane.normals.row(2).setConstant(-1);
     plane.points = surface_points(grid, plane.zeta);
     state = test::exact_state(plane, Eigen::Matrix3Xf::Ones(3, grid.size()), test::far_lamps(), true);
@@ -54,7 +56,8 @@ TEST(MeasureNoise, FindsTheDeviationsOfWhiteNoise) {
 TEST(MeasureNoise, TheShapesOwnBroadErrorIsNotTheSensors) {
   NoisyPlane plane(1);
   for (int p = 0; p < plane.grid.size(); ++p)  // 100 deviations off, tilted by 6 from one side to the other
-    plane.state.zeta[p] += NoisyPlane::kDepthNoise * (100 + 6 * plane.grid.pixels[static_cast<size_t>(p)].x / 96.0);
+    plane.state.zeta[p] +=
+        NoisyPlane::kDepthNoise * (100 + 6 * plane.grid.pixels[static_cast<size_t>(p)].x / 96.0);
   EXPECT_LT(plane.measured().depth, 1.5 * NoisyPlane::kDepthNoise);
 }
 

@@ -66,7 +66,8 @@ TEST(RatioRows, LeadFromAFlatStartToTheTruth) {
   const ColorLitSlope lit;
   const Smoothness none(uncut_laplacian(lit.grid), 0);
   const Eigen::VectorXd flat = Eigen::VectorXd::Constant(lit.grid.size(), lit.state.zeta.mean());
-  const GradientProblem problem{lit.grid, lit.corners, ratio_rows(lit.grid, lit.image, lit.state), 1e-7, flat, none};
+  const GradientProblem problem{lit.grid, lit.corners, ratio_rows(lit.grid, lit.image, lit.state),
+                                1e-7,     flat,        none};
   SparseCholesky solver;
   Eigen::VectorXd zeta = flat;
   ASSERT_TRUE(solve_gradient_rows(problem, solver, zeta));
@@ -78,8 +79,8 @@ TEST(GradientRows, AreSolvedAsADenseSystemWouldBe) {
   const ColorLitSlope lit;
   const Smoothness smoothness(uncut_laplacian(lit.grid), 0.3);
   const Eigen::VectorXd start = lit.state.zeta.array().sin();
-  const GradientProblem problem{lit.grid, lit.corners, ratio_rows(lit.grid, lit.image, lit.state), 0.5, start,
-                                smoothness};
+  const GradientProblem problem{lit.grid, lit.corners, ratio_rows(lit.grid, lit.image, lit.state),
+                                0.5,      start,       smoothness};
   Eigen::MatrixXd A =
       0.5 * Eigen::MatrixXd::Identity(start.size(), start.size()) + Eigen::MatrixXd(smoothness.matrix());
   Eigen::VectorXd b = 0.5 * start;
@@ -87,7 +88,8 @@ TEST(GradientRows, AreSolvedAsADenseSystemWouldBe) {
        problem.rows) {  // rows by unit vectors: nothing shared with the code but the gradient
     Eigen::VectorXd dense(start.size());
     for (Eigen::Index q = 0; q < dense.size(); ++q)
-      dense[q] = row.a.dot(forward_gradient(lit.grid, lit.corners, row.pixel, Eigen::VectorXd::Unit(start.size(), q)));
+      dense[q] = row.a.dot(
+          forward_gradient(lit.grid, lit.corners, row.pixel, Eigen::VectorXd::Unit(start.size(), q)));
     A += dense * dense.transpose();
     b += row.b * dense;
   }
@@ -111,9 +113,7 @@ TEST(ShadingRows, VanishAtTheTruth) {
   lamp.l.row(0) << 0.3f, -0.2f, -0.8f;
   lamp.phi[0] = 0.1f;
   lamp.second_order = true;
-  lamp.Q[0] << 0.05f, 0.02f, -0.03f,
-               0.02f, -0.01f, 0.04f,
-               -0.03f, 0.04f, -0.04f;
+  lamp.Q[0] << 0.05f, 0.02f, -0.03f, 0.02f, -0.01f, 0.04f, -0.03f, 0.04f, -0.04f;
   const Eigen::Matrix3Xf normals = orthographic_normals(grid, corners, z, k);
   Eigen::VectorXd I(grid.size());
   for (int p = 0; p < grid.size(); ++p) {

@@ -25,7 +25,8 @@ std::vector<cv::Point> readings(const cv::Mat1f& depth) {
 
 TEST(RegisteredDepth, OfTheSameViewIsPassedOn) {
   const LightStack stack = test::empty_stack();
-  const Frame frame = test::depth_frame(stack, [](int u, int v) { return u == 3 ? 0.0 : 1 + 0.001 * u + 0.002 * v; });
+  const Frame frame =
+      test::depth_frame(stack, [](int u, int v) { return u == 3 ? 0.0 : 1 + 0.001 * u + 0.002 * v; });
   const cv::Mat1f depth = registered_depth(stack, frame);
   for (int v = 0; v < depth.rows; ++v) {
     for (int u = 0; u < depth.cols; ++u) {

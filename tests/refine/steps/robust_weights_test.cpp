@@ -39,7 +39,8 @@ struct NoisySphere {
 
 TEST(ResidualScale, IsTheDeviationOfGaussianNoise) {
   const NoisySphere noisy;
-  EXPECT_NEAR(residual_scale(noisy.images, noisy.state), static_cast<double>(kSigma), 0.05 * static_cast<double>(kSigma));
+  EXPECT_NEAR(residual_scale(noisy.images, noisy.state), static_cast<double>(kSigma),
+              0.05 * static_cast<double>(kSigma));
 }
 
 TEST(ResidualScale, IsHardlyMovedByHighlights) {
@@ -56,7 +57,8 @@ TEST(ResidualScale, IgnoresClippedChannels) {
       samples.usable[k] = k % 5 >= 3;
     }
   });
-  EXPECT_NEAR(residual_scale(noisy.images, noisy.state), static_cast<double>(kSigma), 0.05 * static_cast<double>(kSigma));
+  EXPECT_NEAR(residual_scale(noisy.images, noisy.state), static_cast<double>(kSigma),
+              0.05 * static_cast<double>(kSigma));
 }
 
 TEST(CauchyWeights, AreLowForHighlightsAndHighForTheRest) {

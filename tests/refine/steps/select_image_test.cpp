@@ -30,7 +30,8 @@ struct Scan {
       images.colored_lamps.push_back(lamps[i] == LampColor::rgb);
       images.lamp_positions.emplace_back();
       for (int c = 0; c < 3; ++c)
-        samples.radiance.insert(samples.radiance.end(), 2, 10.0f * static_cast<float>(i) + static_cast<float>(c));
+        samples.radiance.insert(samples.radiance.end(), 2,
+                                10.0f * static_cast<float>(i) + static_cast<float>(c));
     }
     samples.usable.assign(samples.radiance.size(), 1);
     images.set(samples);
