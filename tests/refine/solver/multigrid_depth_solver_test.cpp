@@ -74,6 +74,14 @@ TEST(MultigridDepthSolver, AgreesWithTheExactSolver) {
   }
 }
 
+TEST(MultigridDepthSolver, SmoothsMoreWhereStrengthsVaryWildly) {
+  const RoughSystem rough(150, 110, 2, 1e5);  // more than twenty steps
+  Eigen::VectorXd fast, exact;
+  ASSERT_TRUE(make_multigrid_depth_solver(rough.grid, rough.cells, 1e-5)->solve(rough.system, fast));
+  ASSERT_TRUE(make_cholesky_depth_solver(rough.grid, rough.cells)->solve(rough.system, exact));
+  EXPECT_LT(relative_difference(fast, exact), 1e-2);
+}
+
 TEST(MultigridDepthSolver, AgreesWithTheExactSolverUnderSecondDifferences) {
   for (const int scale : {1, 2}) {
     RoughSystem rough(96, 61, scale, 30);
