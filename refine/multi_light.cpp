@@ -48,12 +48,13 @@ double sensor_weight(const DepthOptions& options, const MeasuredNoise& noise) {
   return options.noise_ratio * ratio * ratio;
 }
 
-void require_enough_images(const Observations& images) {
+void require_enough_images(const std::string& stack, const Observations& images) {
   constexpr int kLeastImages = 4;  // as many as unknowns of a lit pixel: shape (2), albedo and ambient share
   if (images.images >= kLeastImages) return;
   throw InputError(
-      "the stack",
-      "has " + std::to_string(images.images) + " lit images, and the multi-light method needs at least 4",
+      stack,
+      "has " + std::to_string(images.images) + (images.images == 1 ? " lit image" : " lit images") +
+          ", and the multi-light method needs at least 4",
       "record more lamps, or use --method rgb-ratio for one image under red, green and blue lamps, "
       "fusion-like for any one");
 }
@@ -92,7 +93,7 @@ bool settled(const RefineProblem& problem, const RefineOptions& options,
 MethodResult refine_multi_light(const RefineProblem& problem, const RefineOptions& options,
                                 const IterationCallback& after_iteration) {
   const Observations& images = problem.images;
-  require_enough_images(images);
+  require_enough_images(problem.origin, images);
   MethodResult result;
   SurfaceState& state = result.state = initial_state(problem, options);
   const auto solver = options.depth.solver == Solver::exact

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "refine/kernels/tile.h"
 #include "refine/pixel_grid.h"
 #include "stack/stack.h"
 
@@ -18,7 +19,7 @@ namespace rakelight {
 class ChannelSamples {
  public:
   /// The code of a sample that is clipped or missing. It reads as just above the brightest that can be used.
-  static constexpr std::uint16_t kUnusable = 0xFFFF;
+  static constexpr std::uint16_t kUnusable = kernels::TileImage::kUnusable;
 
   ChannelSamples(const std::uint16_t* codes, float step, float least)
       : codes_(codes), step_(step), least_(least) {}

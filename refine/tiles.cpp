@@ -63,14 +63,15 @@ void Tile::move_to(int begin, int count) {
     for (float& value : surface_.offset[k].at) value -= state_.scene.center[k];
 }
 
-const kernels::TileImage& Tile::image(int i, const float* weight) {
+const kernels::TileImage& Tile::image(int i) {
   for (int c = 0; c < 3; ++c) {
     const ChannelSamples samples = images_.channel(i, c);
     image_.codes[c] = samples.codes() + begin_;
     image_.step[c] = samples.step();
     image_.least[c] = samples.least();
   }
-  image_.weight = weight + begin_;
+  image_.weight = state_.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images_.pixels) +
+                  static_cast<size_t>(begin_);
   if (count_ == kTilePixels) return image_;
   for (int c = 0; c < 3; ++c) {
     std::fill(std::copy_n(image_.codes[c], count_, codes_[c]), std::end(codes_[c]),

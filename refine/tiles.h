@@ -30,17 +30,10 @@ class Tile {
   int count() const { return count_; }
   kernels::TileSurface& surface() { return surface_; }
 
-  /// Samples of image i with the given weights [pixel of the whole grid].
-  const kernels::TileImage& image(int i, const float* weight);
-
-  /// The same with the state's weights.
-  const kernels::TileImage& image(int i) { return image(i, weights_of(i)); }
+  /// Samples of image i with the state's weights, until the next call.
+  const kernels::TileImage& image(int i);
 
  private:
-  const float* weights_of(int i) const {
-    return state_.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images_.pixels);
-  }
-
   const Observations& images_;
   const SurfaceState& state_;
   bool any_near_;  ///< only near lamps ask where the pixels are

@@ -50,7 +50,8 @@ class PhotometricTensors {
 PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceState& state);
 
 /// The same under new Cauchy weights (refine/steps/robust_weights.h), which the state keeps: both in one read of the images.
-/// @param scale k sigma of the weights  @param tensors of as many pixels
+/// r^2 of a weight is the mean over the sample's usable channels; the weight is 0 where none is.
+/// @param scale k sigma of the weights, linear radiance  @param tensors of as many pixels
 void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state,
                             PhotometricTensors& tensors);
 

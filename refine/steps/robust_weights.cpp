@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "refine/kernels/image_kernels.h"
-#include "refine/tiles.h"
+#include "refine/pixel_blocks.h"
 
 namespace rakelight {
 namespace {
@@ -55,21 +54,6 @@ double residual_scale_of_image(const Observations& images, const SurfaceState& s
 
 double median_radiance(const Observations& images) {
   return median_of_samples(images, 0, images.images, [&](int i, int p) { return images.radiance_at(i, p); });
-}
-
-std::vector<float> cauchy_weights(const Observations& images, const SurfaceState& state, double scale) {
-  std::vector<float> weight(static_cast<size_t>(images.images) * static_cast<size_t>(images.pixels));
-  const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
-  for_each_tile(images, state, [&](Tile& tile) {
-    kernels::TileRow row;
-    for (size_t i = 0; i < lamps.size(); ++i) {
-      kernels::cauchy_weight(tile.surface(), lamps[i], tile.image(static_cast<int>(i)),
-                             static_cast<float>(scale), row);
-      std::copy_n(row.at, tile.count(),
-                  weight.data() + i * static_cast<size_t>(images.pixels) + static_cast<size_t>(tile.begin()));
-    }
-  });
-  return weight;
 }
 
 std::vector<float> usable_weights(const Observations& images) {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Cauchy weights: cast shadows, highlights and reflections are samples the model cannot explain, so each sample is
-// weighed by 1 / (1 + (r / (k sigma))^2), sigma the robust scale 1.4826 median |r| of all residuals.
+// weighed by 1 / (1 + (r / (k sigma))^2), sigma the robust scale 1.4826 median |r| of all residuals. The weights are made where
+// they are used first: reweigh_and_accumulate (refine/steps/photometric_tensor.h).
 #pragma once
 
 #include "refine/observations.h"
@@ -18,10 +19,6 @@ double residual_scale_of_image(const Observations& images, const SurfaceState& s
 
 /// Median over usable samples of the radiance: the brightness that errors are held against.
 double median_radiance(const Observations& images);
-
-/// Weights of all samples; r^2 is the mean over the usable channels. 0 where none is.
-/// @param scale k sigma above
-std::vector<float> cauchy_weights(const Observations& images, const SurfaceState& state, double scale);
 
 /// 1 where a channel is usable, else 0.
 std::vector<float> usable_weights(const Observations& images);

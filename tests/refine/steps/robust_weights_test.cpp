@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "refine/steps/photometric_tensor.h"
 #include "tests/refine/exact_surface.h"
 
 namespace rakelight {
@@ -25,6 +26,13 @@ struct NoisySphere {
     test::change_samples(images, [&](PlainSamples& samples) {
       for (float& radiance : samples.radiance) radiance += noise(random);
     });
+  }
+
+  /// The state's weights by residuals of scale kSigma.
+  const std::vector<float>& reweighed() {
+    PhotometricTensors tensors(static_cast<size_t>(images.pixels));
+    reweigh_and_accumulate(images, static_cast<double>(kSigma), state, tensors);
+    return state.weight;
   }
 
   /// Brightens every fifth pixel of every image, as a highlight does.
@@ -64,7 +72,7 @@ TEST(ResidualScale, IgnoresClippedChannels) {
 TEST(CauchyWeights, AreLowForHighlightsAndHighForTheRest) {
   NoisySphere noisy;
   noisy.add_highlights();
-  const auto weights = cauchy_weights(noisy.images, noisy.state, static_cast<double>(kSigma));
+  const auto weights = noisy.reweighed();
   double rest = 0;
   int rest_count = 0;
   for (int i = 0; i < noisy.images.images; ++i) {
@@ -87,7 +95,7 @@ TEST(CauchyWeights, AreAHalfWhereTheResidualIsTheScale) {
   test::change_samples(noisy.images, [&](PlainSamples& samples) {
     for (int c = 0; c < 3; ++c) samples.radiance[test::sample_index(noisy.images, 2, c, 11)] += kSigma;
   });
-  const auto weights = cauchy_weights(noisy.images, noisy.state, static_cast<double>(kSigma));
+  const auto weights = noisy.reweighed();
   EXPECT_LT(std::abs(weights[static_cast<size_t>(2 * noisy.images.pixels + 11)] - 0.5f), 1e-4f);
   EXPECT_LT(std::abs(weights[static_cast<size_t>(2 * noisy.images.pixels + 12)] - 1.0f), 1e-4f);
 }
@@ -101,9 +109,22 @@ TEST(CauchyWeights, JudgeASampleByItsUsableChannelsAlone) {
     samples.usable[clipped] = 0;
     for (int c = 0; c < 3; ++c) samples.usable[test::sample_index(noisy.images, 0, c, 4)] = 0;
   });
-  const auto weights = cauchy_weights(noisy.images, noisy.state, static_cast<double>(kSigma));
+  const auto weights = noisy.reweighed();
   EXPECT_LT(std::abs(weights[3] - 1.0f), 1e-4f);
   EXPECT_EQ(weights[4], 0);
+}
+
+TEST(CauchyWeights, AreThoseOfTheTensorsMadeWithThem) {
+  NoisySphere noisy;
+  noisy.add_highlights();
+  PhotometricTensors tensors(static_cast<size_t>(noisy.images.pixels));
+  reweigh_and_accumulate(noisy.images, static_cast<double>(kSigma), noisy.state, tensors);
+  const PhotometricTensors again = accumulate_tensors(noisy.images, noisy.state);
+  for (size_t p = 0; p < tensors.size(); ++p) {
+    EXPECT_EQ(tensors[p].G, again[p].G);
+    EXPECT_EQ(tensors[p].h, again[p].h);
+    EXPECT_EQ(tensors[p].e0, again[p].e0);
+  }
 }
 
 TEST(UsableWeights, AreOneWhereAnyChannelIsUsable) {
