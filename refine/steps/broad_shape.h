@@ -5,12 +5,13 @@
 // the columns 1, x, y, x^2, xy, y^2 and zeta, where (x, y, 1) z is the point. The lamps' fit carries them along.
 #pragma once
 
+#include "refine/kernels/near_lamp_kernels.h"
 #include "refine/steps/super_resolution.h"
 #include "refine/surface_state.h"
 
 namespace rakelight {
 
-constexpr int kBroadChanges = 7;
+constexpr int kBroadChanges = kernels::kBroadChanges;
 using BroadChanges = Eigen::Matrix<float, 1, kBroadChanges>;
 
 /// The surface that the lamps are fitted with, and what holds it.
@@ -19,21 +20,17 @@ struct BroadShape {
   const DepthPrior& prior;
 };
 
-/// One surface point and how the broad changes move it.
+/// How the broad changes move one surface point, and what holds it.
 struct BroadPixel {
-  int p = 0;
-  Eigen::Vector3f point, normal;          ///< at c = 0
-  BroadChanges B = BroadChanges::Zero();  ///< d zeta / d c
-  Eigen::Matrix<float, 3, kBroadChanges> normal_by_c =
-      Eigen::Matrix<float, 3, kBroadChanges>::Zero();  ///< d n / d c
+  BroadChanges B;                                      ///< d zeta / d c
+  Eigen::Matrix<float, 3, kBroadChanges> normal_by_c;  ///< d n / d c
   double prior_weight = 0;                             ///< lambda_z of the pixel
   double prior_miss = 0;                               ///< zeta - z0
 };
 
-/// B at pixel p.
-BroadChanges broad_changes(const SurfaceState& state, int p);
+/// B c at every pixel: the change of zeta.
+Eigen::VectorXd broad_change(const SurfaceState& state, const Eigen::Matrix<double, kBroadChanges, 1>& c);
 
-/// @param shape nullptr: the surface is held (B = 0, no prior)
-BroadPixel broad_pixel(const BroadShape* shape, const SurfaceState& state, int p);
+BroadPixel broad_pixel(const BroadShape& shape, const SurfaceState& state, int p);
 
 }  // namespace rakelight

@@ -91,7 +91,7 @@ void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior
   const BroadShape shape{problem.grid, prior};
   NearLampOptions options = fit_options();
   options.highlights = iteration >= kChoice;
-  state.zeta += fit_near_lamps(problem.images, &shape, options, state, gloss_);
+  state.zeta += fit_near_lamps(samples_, &shape, options, state, gloss_);
   state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
   state.points = surface_points(problem.grid, state.zeta);
   state.albedo =
@@ -118,11 +118,11 @@ std::vector<LampUncertainty> LampEstimator::positions(const RefineProblem& probl
   options.highlights = true;
   Gloss gloss = gloss_;
   for (int round = 0; round < kLastRounds; ++round) {
-    state.zeta += fit_near_lamps(problem.images, &shape, options, state, gloss);
+    state.zeta += fit_near_lamps(samples_, &shape, options, state, gloss);
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
     state.points = surface_points(problem.grid, state.zeta);
   }
-  std::vector<LampUncertainty> result = near_lamp_uncertainty(problem.images, &shape, options, state, gloss);
+  std::vector<LampUncertainty> result = near_lamp_uncertainty(samples_, &shape, options, state, gloss);
   for (LampUncertainty& lamp : result) {
     lamp.position_covariance *= kSharedErrors * kSharedErrors;
     lamp.distance_deviation *= kSharedErrors;
@@ -140,6 +140,7 @@ NearLampOptions LampEstimator::fit_options() const {
 
 void LampEstimator::start_near(const Observations& images, SurfaceState& state) {
   near_ = true;
+  samples_ = sample_lamp_regions(images, state);
   far_state_ = state;
   explanation_ = "near lamps: asked for";
   for (size_t i = 0; i < state.lamps.size(); ++i) {
@@ -156,8 +157,9 @@ void LampEstimator::start_near(const Observations& images, SurfaceState& state) 
   if (options_.positions != LampPositions::estimated) return;
   state.weight = usable_weights(images);
   state.albedo.setOnes();
+  const NearLampSearch search(images, state);
   for (int round = 0; round < kSearchRounds; ++round) {
-    state.lamps = search_near_lamps(images, state);
+    state.lamps = search.lamps(state);
     state.albedo = estimate_albedo(images, state);
   }
 }

@@ -51,7 +51,8 @@ class LampEstimator {
   void choose(const Observations& images, SurfaceState& state);
 
   LampOptions options_;
-  SurfaceState far_state_;  ///< what the far lamps had reached when near ones took over
+  SurfaceState far_state_;              ///< what the far lamps had reached when near ones took over
+  std::vector<RegionSamples> samples_;  ///< what near lamps are fitted to
   Gloss gloss_ = Gloss::Zero();
   std::optional<Observations> matt_;
   bool near_ = false;

@@ -5,87 +5,56 @@
 #include <opencv2/core/utility.hpp>
 
 #include "refine/steps/near_lamp_channel.h"
-#include "refine/steps/near_lamp_shading.h"
 
 namespace rakelight {
 namespace {
 
-constexpr Eigen::Index kShared = NearLampUnknowns::kShared, kShape = NearLampUnknowns::kShape,
-                       kGloss = NearLampUnknowns::kGloss;
-constexpr double kLeastShading = 1e-12;  // below, in squares: nothing is known of a pixel's albedo
+constexpr Eigen::Index kShape = NearLampUnknowns::kShape;
 
-/// S of each image and what is left of it without highlights.
-struct RegionModel {
-  std::vector<Eigen::ArrayX3d> S, matt;
-  Eigen::ArrayX3d SS, SI;  ///< sum w S^2 and sum w S (I - H): the albedo is their ratio
+/// zeta - z0 of a region's pixels.
+Eigen::ArrayXd prior_miss(const NearLampUnknowns& at, const LampRegion& region) {
+  return region.prior_miss + (region.B.cast<double>().matrix() * at.shape).array();
+}
 
-  RegionModel(const NearLampUnknowns& at, const LampRegion& region, const std::vector<MovedPoint>& points) {
-    SS = SI = Eigen::ArrayX3d::Zero(static_cast<Eigen::Index>(points.size()), 3);
-    for (size_t i = 0; i < at.lamps.size(); ++i) {
-      const RegionImage& image = region.images[i];
-      S.push_back(region_shading(at.lamps[i], points, at.scene.lobe_exponent));
-      matt.push_back(image.I - region_highlights(at.lamps[i], image, at.gloss));
-      SS += image.w * S.back().square();
-      SI += image.w * S.back() * matt.back();
-    }
-  }
-};
-
-double region_energy(const NearLampUnknowns& at, const LampRegion& region) {
-  const RegionModel model(at, region, moved_points(at, region.pixels));
+/// Weighed squares of what the model leaves of the samples.
+double misfit(const LampRegion& region, const RegionModel& model) {
   double sum = 0;
-  for (size_t i = 0; i < region.images.size(); ++i)
-    sum += (region.images[i].w * model.matt[i].square()).sum();
-  sum -= (model.SS > kLeastShading).select(model.SI.max(0.0) * model.SI / model.SS, 0.0).sum();
-  for (const BroadPixel& pixel : region.pixels) {
-    const double miss = prior_miss(at, pixel);
-    sum += pixel.prior_weight * miss * miss;
-  }
+  for (Eigen::Index column = 0; column < model.S.cols(); ++column)
+    sum += static_cast<double>((region.w.col(column) * model.residual(column).square()).sum());
   return sum;
 }
 
-void add_channel(const NearLampUnknowns& at, const LampRegion& region, const RegionModel& model,
-                 const std::vector<SampleDerivatives>& derivatives, int c, NearLampEquations& total) {
-  const Eigen::ArrayXd SS = model.SS.col(c);
-  const auto known = (SS > kLeastShading && model.SI.col(c) > 0).eval();
-  const Eigen::ArrayXd rho = known.select(model.SI.col(c) / SS, 0.0);
-  const Eigen::ArrayXd root = known.select(SS.sqrt(), 1.0);
-  ChannelEquations equations(SS.size(), static_cast<Eigen::Index>(at.lamps.size()));
-  for (size_t i = 0; i < at.lamps.size(); ++i) {
-    const RegionImage& image = region.images[i];
-    const Eigen::ArrayXd w = known.select(image.w.col(c), 0.0), S = model.S[i].col(c);
-    const Eigen::ArrayXd r = model.matt[i].col(c) - rho * S;
-    total.energy += (w * r.square()).sum();
-    total.samples += w.sum();
-    if (!at.lamps[i].near) continue;
-    const auto e = static_cast<double>(at.lamps[i].strength[c]);
-    SampleDerivatives J = rho.matrix().asDiagonal() * derivatives[i];
-    J.leftCols<3>() *= e;
-    J.rightCols<kShared>() *= e;
-    J.col(3) += image.lobes * at.gloss;
-    J.rightCols<kGloss>() = e * image.lobes;
-    equations.add_image(static_cast<Eigen::Index>(i), w, r, w * S / root, J);
-  }
-  total.samples -= static_cast<double>(known.count());
-  equations.add_to(at, c, total);
+double region_energy(const NearLampUnknowns& at, const LampRegion& region) {
+  const RegionModel model(at, region, moved_surface(at, region));
+  return misfit(region, model) + (region.prior_weight * prior_miss(at, region).square()).sum();
+}
+
+void add_prior(const NearLampUnknowns& at, const LampRegion& region, NearLampEquations& total) {
+  const Eigen::ArrayXd miss = prior_miss(at, region);
+  const Eigen::MatrixXd B = region.B.cast<double>(), weighted = region.prior_weight.matrix().asDiagonal() * B;
+  total.energy += (region.prior_weight * miss.square()).sum();
+  total.A.block<kShape, kShape>(at.shape_at(), at.shape_at()) += weighted.transpose() * B;
+  total.b.segment<kShape>(at.shape_at()) -= weighted.transpose() * miss.matrix();
 }
 
 NearLampEquations region_equations(const NearLampUnknowns& at, const LampRegion& region) {
   NearLampEquations total(at.size());
-  const std::vector<MovedPoint> points = moved_points(at, region.pixels);
-  const RegionModel model(at, region, points);
-  std::vector<SampleDerivatives> derivatives;
-  for (const Lamp& lamp : at.lamps)
-    derivatives.push_back(lamp.near ? shading_derivatives(lamp, points, region.pixels, at.scene.lobe_exponent)
-                                    : SampleDerivatives());
-  for (int c = 0; c < 3; ++c) add_channel(at, region, model, derivatives, c, total);
-  for (const BroadPixel& pixel : region.pixels) {
-    const double miss = prior_miss(at, pixel);
-    const Eigen::Matrix<double, kShape, 1> B = pixel.B.transpose().cast<double>();
-    total.energy += pixel.prior_weight * miss * miss;
-    total.A.block<kShape, kShape>(at.shape_at(), at.shape_at()) += pixel.prior_weight * B * B.transpose();
-    total.b.segment<kShape>(at.shape_at()) -= pixel.prior_weight * miss * B;
+  const SurfacePoints surface = moved_surface(at, region);
+  const RegionModel model(at, region, surface);
+  std::vector<ChannelEquations> channels;
+  for (int c = 0; c < 3; ++c) channels.emplace_back(at, region, model, c);
+  for (size_t i = 0; i < at.lamps.size(); ++i) {
+    if (!at.lamps[i].near) continue;
+    const ShadingDerivatives derivatives = shading_derivatives(at.lamps[i], at.scene, region, surface);
+    for (ChannelEquations& channel : channels) channel.add_lamp(i, derivatives);
   }
+  for (ChannelEquations& channel : channels) channel.add_to(total);
+  total.energy += misfit(region, model);
+  const auto known = (model.rho > 0.0f).cast<float>().eval();
+  for (Eigen::Index column = 0; column < region.w.cols(); ++column)
+    total.samples += static_cast<double>((known.col(column % 3) * region.w.col(column)).sum());
+  total.samples -= static_cast<double>(known.topRows(region.samples->pixels.size()).sum());
+  add_prior(at, region, total);
   return total;
 }
 

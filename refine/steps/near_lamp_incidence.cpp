@@ -3,6 +3,7 @@
 #include "refine/steps/near_lamp_incidence.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace rakelight {
 
@@ -13,25 +14,40 @@ Eigen::Matrix<float, 3, 2> lamp_tangents(const Eigen::Vector3f& direction) {
   return tangents;
 }
 
-Incidence incidence_of(const Lamp& lamp, const Eigen::Matrix<float, 3, 2>& tangents,
-                       const Eigen::Vector3f& offset, const Eigen::Vector3f& normal, float m,
-                       bool derivatives) {
-  const float kappa = lamp.inverse_distance;
-  const Eigen::Vector3f &d = lamp.direction, u = d - kappa * offset;
-  const float u2 = u.squaredNorm(), du = d.dot(u), un = u.dot(normal);
-  if (un <= 0.0f || du <= 0.0f) return {};
-  // v.n = (u.n) k with k = (d.u)^m |u|^-(3+m); change of u and d gives d(v.n) = k (du.n) + (u.n) dk.
-  const float k = m == 1.0f ? du / (u2 * u2) : std::pow(du / std::sqrt(u2), m) / (u2 * std::sqrt(u2));
-  Incidence result;
-  result.value = un * k;
-  if (!derivatives) return result;
-  const Eigen::Vector3f by_u = k * normal + result.value * (m / du * d - (3 + m) / u2 * u);
-  const Eigen::Vector3f by_d = by_u + result.value * m / du * u;
-  result.lamp << tangents.transpose() * by_d, -offset.dot(by_u);
-  result.aim = result.value * kappa * ((m - 2) * d - m / du * u);
-  result.point = -kappa * by_u;
-  result.normal = k * u;
-  return result;
+kernels::NearLight near_light(const Lamp& lamp, const LampScene& scene) {
+  kernels::NearLight light{};
+  light.inverse_distance = lamp.inverse_distance;
+  light.lobe_exponent = scene.lobe_exponent;
+  const Eigen::Matrix<float, 3, 2> tangents = lamp_tangents(lamp.direction);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    light.direction[k] = lamp.direction[k];
+    light.tangent[0][k] = tangents(k, 0);
+    light.tangent[1][k] = tangents(k, 1);
+    light.center[k] = scene.center[k];
+  }
+  return light;
+}
+
+SurfacePoints::SurfacePoints(const Eigen::Matrix3Xf& points, const Eigen::Matrix3Xf& normals,
+                             const std::vector<int>& pixels)
+    : SurfacePoints(padded(pixels.size())) {
+  for (Eigen::Index k = 0; k < point.rows(); ++k) {
+    const int p = pixels[std::min(static_cast<size_t>(k), pixels.size() - 1)];
+    point.row(k) = points.col(p).transpose();
+    normal.row(k) = normals.col(p).transpose();
+  }
+}
+
+kernels::PointRuns SurfacePoints::runs() const {
+  const auto column = [](const Eigen::ArrayX3f& of, Eigen::Index k) { return of.col(k).data(); };
+  return {{column(point, 0), column(point, 1), column(point, 2)},
+          {column(normal, 0), column(normal, 1), column(normal, 2)}};
+}
+
+Eigen::ArrayXf near_incidence(const Lamp& lamp, const LampScene& scene, const SurfacePoints& at) {
+  Eigen::ArrayXf value(at.rows());
+  kernels::near_incidence(near_light(lamp, scene), at.runs(), at.rows(), value.data());
+  return value;
 }
 
 }  // namespace rakelight

@@ -3,8 +3,7 @@
 #include "refine/steps/near_lamp_places.h"
 
 #include <cmath>
-
-#include "refine/steps/near_lamp_incidence.h"
+#include <opencv2/core/utility.hpp>
 
 namespace rakelight {
 
@@ -24,19 +23,19 @@ std::vector<LampPlace> places_everywhere() {
   return places;
 }
 
-PlaceTable::PlaceTable(std::vector<LampPlace> candidates, const SurfaceState& state,
-                       const std::vector<int>& pixels)
-    : places(std::move(candidates)), value(pixels.size(), places.size()) {
-  Lamp lamp;
-  for (size_t k = 0; k < places.size(); ++k) {
-    lamp.direction = places[k].direction;
-    lamp.inverse_distance = places[k].inverse_distance;
-    for (size_t j = 0; j < pixels.size(); ++j)
-      value(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) =
-          incidence_of(lamp, kNoTangents, state.points.col(pixels[j]) - state.scene.center,
-                       state.normals.col(pixels[j]), state.scene.lobe_exponent, false)
-              .value;
-  }
+PlaceTable::PlaceTable(std::vector<LampPlace> candidates, const LampScene& scene,
+                       const SurfacePoints& surface)
+    : places(std::move(candidates)), value(surface.rows(), places.size()) {
+  cv::parallel_for_(cv::Range(0, static_cast<int>(places.size())), [&](const cv::Range& range) {
+    Lamp lamp;
+    for (auto k = static_cast<size_t>(range.start); k < static_cast<size_t>(range.end); ++k) {
+      lamp.direction = places[k].direction;
+      lamp.inverse_distance = places[k].inverse_distance;
+      kernels::near_incidence(near_light(lamp, scene), surface.runs(), surface.rows(),
+                              value.col(static_cast<Eigen::Index>(k)).data());
+    }
+  });
+  square = value.cwiseAbs2();
 }
 
 }  // namespace rakelight

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "refine/surface_state.h"
+#include "refine/steps/near_lamp_incidence.h"
 
 namespace rakelight {
 
@@ -20,12 +20,13 @@ void add_places(const Eigen::Vector3f& direction, std::vector<LampPlace>& places
 /// All over the camera's half of the space about the object.
 std::vector<LampPlace> places_everywhere();
 
-/// Places and what a lamp of strength 1 sends from each to some pixels of the surface; it is the same for every image.
+/// Places and what a lamp of strength 1 sends from each to some surface points; it is the same for every image.
 struct PlaceTable {
   std::vector<LampPlace> places;
-  Eigen::MatrixXf value;  ///< [pixel, place] max(0, v.n)
+  Eigen::MatrixXf value;   ///< [row of the surface points, place] max(0, v.n)
+  Eigen::MatrixXf square;  ///< of the value
 
-  PlaceTable(std::vector<LampPlace> candidates, const SurfaceState& state, const std::vector<int>& pixels);
+  PlaceTable(std::vector<LampPlace> candidates, const LampScene& scene, const SurfacePoints& surface);
 };
 
 }  // namespace rakelight

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 
-#include "refine/steps/near_lamp_places.h"
 #include "refine/steps/near_lamp_prior.h"
 
 namespace rakelight {
@@ -23,13 +22,14 @@ std::vector<int> sample_of_pixels(int pixels) {
   return sample;
 }
 
-/// One image at the sampled pixels, a row a pixel, a column a channel; zero where a sample cannot be used.
+/// One image at the sampled pixels, a row a pixel, a column a channel; zero where a sample cannot be used and past the
+/// last pixel.
 struct SampledImage {
   Eigen::ArrayX3f I, rho;
 
   SampledImage(const Observations& images, const SurfaceState& state, int image,
                const std::vector<int>& pixels)
-      : I(pixels.size(), 3), rho(pixels.size(), 3) {
+      : I(Eigen::ArrayX3f::Zero(padded(pixels.size()), 3)), rho(I) {
     for (size_t j = 0; j < pixels.size(); ++j) {
       const Eigen::Array3f usable = images.usable_channels(image, pixels[j]);
       const auto row = static_cast<Eigen::Index>(j);
@@ -60,7 +60,7 @@ void try_places(const PlaceTable& table, const SampledImage& image, const Lamp& 
   const auto count = static_cast<Eigen::Index>(table.places.size());
   const Eigen::MatrixX3f rho2 = image.rho.square(), rhoI = image.rho * image.I;
   const Eigen::MatrixX3f v = table.value.transpose() * rho2, vI = table.value.transpose() * rhoI;
-  const Eigen::MatrixX3f vv = table.value.cwiseAbs2().transpose() * rho2;
+  const Eigen::MatrixX3f vv = table.square.transpose() * rho2;
   const Eigen::RowVector3f one = rho2.colwise().sum(), I = rhoI.colwise().sum();
   for (Eigen::Index k = 0; k < count; ++k) {
     Trial trial{lamp};
@@ -101,22 +101,26 @@ float median(std::vector<float> values) {
 
 }  // namespace
 
-std::vector<Lamp> search_near_lamps(const Observations& images, const SurfaceState& state) {
-  const std::vector<int> pixels = sample_of_pixels(images.pixels);
-  const PlaceTable everywhere(places_everywhere(), state, pixels);
+NearLampSearch::NearLampSearch(const Observations& images, const SurfaceState& state)
+    : images_(images),
+      pixels_(sample_of_pixels(images.pixels)),
+      surface_(state.points, state.normals, pixels_),
+      everywhere_(places_everywhere(), state.scene, surface_) {}
+
+std::vector<Lamp> NearLampSearch::lamps(const SurfaceState& state) const {
   std::vector<std::vector<Trial>> trials(state.lamps.size());
-  cv::parallel_for_(cv::Range(0, images.images), [&](const cv::Range& range) {
+  cv::parallel_for_(cv::Range(0, images_.images), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
       const Lamp& lamp = state.lamps[static_cast<size_t>(i)];
       if (!lamp.near) continue;
-      const SampledImage image(images, state, i, pixels);
+      const SampledImage image(images_, state, i, pixels_);
       std::vector<LampPlace> at_hand;
       add_places(lamp.direction, at_hand);
-      try_places(PlaceTable(at_hand, state, pixels), image, lamp, trials[static_cast<size_t>(i)]);
-      try_places(everywhere, image, lamp, trials[static_cast<size_t>(i)]);
+      try_places(PlaceTable(at_hand, state.scene, surface_), image, lamp, trials[static_cast<size_t>(i)]);
+      try_places(everywhere_, image, lamp, trials[static_cast<size_t>(i)]);
     }
   });
-  const size_t samples = 3 * pixels.size();
+  const size_t samples = 3 * pixels_.size();
   std::vector<float> log_powers;
   for (const auto& of_lamp : trials)
     if (!of_lamp.empty()) log_powers.push_back(best_of(of_lamp, nullptr, samples).log_power);

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "refine/steps/near_lamp_shadows.h"
+
 namespace rakelight {
 namespace {
 
@@ -18,10 +20,10 @@ void lock(NearLampEquations& equations, Eigen::Index k) {
 
 }  // namespace
 
-std::vector<LampRegion> regions_for(const Observations& images, const BroadShape* shape,
+std::vector<LampRegion> regions_for(const std::vector<RegionSamples>& samples, const BroadShape* shape,
                                     const NearLampOptions& options, const SurfaceState& state,
                                     const Gloss& gloss) {
-  std::vector<LampRegion> regions = sample_lamp_regions(images, shape, state, options.pixels);
+  std::vector<LampRegion> regions = lamp_regions(samples, shape, state);
   if (options.highlights) forget_shadows(state, gloss, regions);
   return regions;
 }

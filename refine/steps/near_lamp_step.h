@@ -4,14 +4,13 @@
 // The step that solves the joint lamp fit's equations (refine/steps/near_lamps.h).
 #pragma once
 
-#include "refine/observations.h"
 #include "refine/steps/near_lamp_equations.h"
 #include "refine/steps/near_lamps.h"
 
 namespace rakelight {
 
-/// The pixels that a fit or its uncertainty looks at, weighed as the options say.
-std::vector<LampRegion> regions_for(const Observations& images, const BroadShape* shape,
+/// What a fit or its uncertainty looks at, weighed as the options say.
+std::vector<LampRegion> regions_for(const std::vector<RegionSamples>& samples, const BroadShape* shape,
                                     const NearLampOptions& options, const SurfaceState& state,
                                     const Gloss& gloss);
 

@@ -10,12 +10,12 @@
 
 namespace rakelight {
 
-std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, const BroadShape* shape,
-                                                   const NearLampOptions& options, const SurfaceState& state,
-                                                   const Gloss& gloss) {
+std::vector<LampUncertainty> near_lamp_uncertainty(const std::vector<RegionSamples>& samples,
+                                                   const BroadShape* shape, const NearLampOptions& options,
+                                                   const SurfaceState& state, const Gloss& gloss) {
   const NearLampUnknowns at{state.lamps, state.scene, gloss};
   const std::vector<NearLampEquations> regions =
-      near_lamp_equations(regions_for(images, shape, options, state, gloss), at);
+      near_lamp_equations(regions_for(samples, shape, options, state, gloss), at);
   NearLampEquations all = sum_of(regions);
   all += near_lamp_prior(at, state.points.rowwise().mean(), error_variance(all));
   Eigen::MatrixXd steps(at.size(), static_cast<Eigen::Index>(regions.size()));

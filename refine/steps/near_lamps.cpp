@@ -28,9 +28,9 @@ Lamp near_from_far(const Lamp& far, float inverse_distance) {
   return lamp;
 }
 
-Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape,
+Eigen::VectorXd fit_near_lamps(const std::vector<RegionSamples>& samples, const BroadShape* shape,
                                const NearLampOptions& options, SurfaceState& state, Gloss& gloss) {
-  const std::vector<LampRegion> regions = regions_for(images, shape, options, state, gloss);
+  const std::vector<LampRegion> regions = regions_for(samples, shape, options, state, gloss);
   const Eigen::Vector3f middle = state.points.rowwise().mean();
   Unknowns at{state.lamps, state.scene, gloss};
   double damping = 1e-4;
@@ -56,9 +56,8 @@ Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* sha
       break;
     }
   }
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(images.pixels);
-  if (shape)
-    for (int p = 0; p < images.pixels; ++p) change[p] = broad_changes(state, p).cast<double>().dot(at.shape);
+  const Eigen::VectorXd change =
+      shape ? broad_change(state, at.shape) : Eigen::VectorXd::Zero(state.zeta.size());
   state.lamps = at.lamps;
   state.scene = at.scene;
   gloss = at.gloss;

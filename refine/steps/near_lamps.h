@@ -17,17 +17,16 @@
 //           Jacobian), a rank-one term a pixel and channel.
 #pragma once
 
-#include "refine/observations.h"
 #include "refine/steps/broad_shape.h"
 #include "refine/steps/highlight.h"
+#include "refine/steps/near_lamp_samples.h"
 #include "refine/surface_state.h"
 
 namespace rakelight {
 
 struct NearLampOptions {
   int steps = 3;                    ///< Levenberg-Marquardt steps a call
-  int pixels = 4000;                ///< about so many pixels are used, evenly spread
-  bool highlights = false;          ///< fit the gloss too, and forget shadows (near_lamp_samples.h)
+  bool highlights = false;          ///< fit the gloss too, and forget shadows (near_lamp_shadows.h)
   float max_inverse_distance = 10;  ///< 1/m: no lamp is taken to stand nearer than this to the centre
   bool fixed_positions = false;     ///< fit strength and ambient share only
 };
@@ -46,16 +45,16 @@ Lamp near_from_far(const Lamp& far, float inverse_distance);
 /// Improves the state's near lamps and their aim (scene.center). Far lamps stay. Strength is found up to one factor a
 /// channel, the same for all lamps: the albedo takes the rest. The gloss is improved with them.
 /// @param shape nullptr: the surface is held; else @return holds the change of zeta that goes with the lamps
-Eigen::VectorXd fit_near_lamps(const Observations& images, const BroadShape* shape,
+Eigen::VectorXd fit_near_lamps(const std::vector<RegionSamples>& samples, const BroadShape* shape,
                                const NearLampOptions& options, SurfaceState& state, Gloss& gloss);
 
 /// Position uncertainty of each lamp, the state being fitted: a jackknife over regions of the picture. Errors of the
 /// model (highlights, shadows, the sensor's depth) agree between neighbouring pixels and between images, so residuals
 /// taken as independent promise far too much; how the fit changes when a region is left out shows what they do to it. One
 /// Gauss-Newton step stands for each refit. Errors that the whole picture shares do not show.
-std::vector<LampUncertainty> near_lamp_uncertainty(const Observations& images, const BroadShape* shape,
-                                                   const NearLampOptions& options, const SurfaceState& state,
-                                                   const Gloss& gloss);
+std::vector<LampUncertainty> near_lamp_uncertainty(const std::vector<RegionSamples>& samples,
+                                                   const BroadShape* shape, const NearLampOptions& options,
+                                                   const SurfaceState& state, const Gloss& gloss);
 
 /// Lamp position in camera coordinates, metres; at most 1 km away.
 Eigen::Vector3d lamp_position(const Lamp& lamp, const LampScene& scene);

@@ -7,9 +7,11 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "refine/kernels/gram.h"
 #include "refine/steps/matt_images.h"
 #include "refine/steps/near_lamp_equations.h"
 #include "refine/steps/near_lamp_incidence.h"
+#include "refine/steps/near_lamp_model.h"
 #include "refine/steps/near_lamp_prior.h"
 #include "refine/steps/near_lamp_search.h"
 #include "tests/refine/exact_surface.h"
@@ -34,6 +36,8 @@ struct NearlyLitSphere {
                           near_lamp(0.1f, -0.6f, 0.9f)};
   SurfaceState state = test::exact_state(sphere, test::varied_albedo(sphere), truth, true);
   Observations images = test::images_of(state);
+
+  std::vector<RegionSamples> samples() const { return sample_lamp_regions(images, state); }
 };
 
 /// Strength of lamp i over that of the first, a channel: the albedo takes up a factor that all lamps share.
@@ -41,47 +45,121 @@ Eigen::Vector3f against_first(const std::vector<Lamp>& lamps, size_t i) {
   return lamps[i].strength.cwiseQuotient(lamps[0].strength);
 }
 
+/// A run of one surface point, repeated.
+SurfacePoints one_point(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
+  return {Eigen::Matrix3Xf(point), Eigen::Matrix3Xf(normal), {0}};
+}
+
+const LampScene kScene{Eigen::Vector3f(0.02f, -0.01f, 0.9f), 1};
+
+/// max(0, v.n) at a point.
+float incidence_at(const Lamp& lamp, const LampScene& scene, const Eigen::Vector3f& point,
+                   const Eigen::Vector3f& normal) {
+  return near_incidence(lamp, scene, one_point(point, normal))[0];
+}
+
+/// A region of one point, whose broad change c is: zeta + B_c, n + column c of `turned`.
+struct OnePointRegion {
+  RegionSamples samples{{0}, Eigen::ArrayXXf::Zero(padded(1), 3), Eigen::ArrayXXf::Zero(padded(1), 3)};
+  LampRegion region;
+  Eigen::Matrix<float, 1, kBroadChanges> B;
+  Eigen::Matrix<float, 3, kBroadChanges> turned;
+
+  OnePointRegion(const Eigen::Vector3f& point, const Eigen::Vector3f& normal)
+      : region{&samples, one_point(point, normal), {}, {}, {}, {}, {}, {}} {
+    B << 1, 0.2f, -0.1f, 0.3f, 0, 0.5f, -0.4f;
+    for (int c = 0; c < kBroadChanges; ++c)
+      turned.col(c) = 0.1f * Eigen::Vector3f(static_cast<float>(c), 1.0f - static_cast<float>(c), 0.5f);
+    region.B = B.array().replicate(padded(1), 1);
+    region.normal_by_c.resize(padded(1), 3 * kBroadChanges);
+    for (int axis = 0; axis < 3; ++axis)
+      region.normal_by_c.middleCols<kBroadChanges>(kBroadChanges * axis) =
+          turned.row(axis).array().replicate(padded(1), 1);
+  }
+};
+
 TEST(NearLampIncidence, ItsDerivativesAgreeWithFiniteDifferences) {
-  const Eigen::Vector3f offset(0.1f, -0.05f, 0.08f), normal = Eigen::Vector3f(0.2f, 0.3f, -1).normalized();
+  const Eigen::Vector3f point = kScene.center + Eigen::Vector3f(0.1f, -0.05f, 0.08f),
+                        normal = Eigen::Vector3f(0.2f, 0.3f, -1).normalized();
+  const OnePointRegion at(point, normal);
   const float h = 2e-3f;
   for (const float lobe : {0.0f, 1.0f, 2.5f}) {
     const Lamp lamp = near_lamp(0.4f, -0.2f, 0.7f);
-    Eigen::Matrix<float, 3, 2> tangents;
-    tangents.col(0) = lamp.direction.unitOrthogonal();
-    tangents.col(1) = lamp.direction.cross(tangents.col(0));
-    const auto value_at = [&](int unknown, float change) {
+    LampScene scene = kScene;
+    scene.lobe_exponent = lobe;
+    const Eigen::Matrix<float, 3, 2> tangents = lamp_tangents(lamp.direction);
+    const auto by_place = [&](int unknown, float change) {
       Lamp moved = lamp;
       if (unknown < 2) moved.direction = (lamp.direction + change * tangents.col(unknown)).normalized();
       if (unknown == 2) moved.inverse_distance += change;
-      return incidence_of(moved, tangents, offset, normal, lobe).value;
+      return incidence_at(moved, scene, point, normal);
     };
-    const auto value_near = [&](const Eigen::Vector3f& change_p, const Eigen::Vector3f& change_n) {
-      return incidence_of(lamp, tangents, offset + change_p, normal + change_n, lobe).value;
-    };
-    const auto value_of_aim = [&](const Eigen::Vector3f& change) {
+    const auto by_aim = [&](int axis, float change) {
       Lamp seen = lamp;  // the same place, seen from the moved centre
-      const Eigen::Vector3f X = lamp.direction / lamp.inverse_distance - change;
+      LampScene moved = scene;
+      moved.center[axis] += change;
+      const Eigen::Vector3f X = lamp.direction / lamp.inverse_distance - change * Eigen::Vector3f::Unit(axis);
       seen.direction = X.normalized();
       seen.inverse_distance = 1 / X.norm();
-      return incidence_of(seen, tangents, offset - change, normal, lobe).value;
+      return incidence_at(seen, moved, point, normal);
     };
-    const Incidence found = incidence_of(lamp, tangents, offset, normal, lobe);
-    for (int k = 0; k < 3; ++k) {
-      const float slope = (value_at(k, h) - value_at(k, -h)) / (2 * h);
-      EXPECT_NEAR(slope, found.lamp[k], 1e-3f) << "unknown " << k << ", lobe " << lobe;
-      const Eigen::Vector3f step = h * Eigen::Vector3f::Unit(k), zero = Eigen::Vector3f::Zero();
-      EXPECT_NEAR((value_near(step, zero) - value_near(-step, zero)) / (2 * h), found.point[k], 2e-3f);
-      EXPECT_NEAR((value_near(zero, step) - value_near(zero, -step)) / (2 * h), found.normal[k], 1e-3f);
-      EXPECT_NEAR((value_of_aim(step) - value_of_aim(-step)) / (2 * h), found.aim[k], 2e-3f);
-    }
+    const auto by_shape = [&](int c, float change) {
+      return incidence_at(lamp, scene, point * std::exp(change * at.B[c]),
+                          normal + change * at.turned.col(c));
+    };
+    const ShadingDerivatives found = shading_derivatives(lamp, scene, at.region, at.region.surface);
+    EXPECT_FLOAT_EQ(found(0, kValue), incidence_at(lamp, scene, point, normal));
+    const auto expect_slope = [&](const auto& by, int unknown, Eigen::Index column) {
+      EXPECT_NEAR((by(unknown, h) - by(unknown, -h)) / (2 * h), found(0, column), 2e-3f)
+          << "unknown " << unknown << ", lobe " << lobe;
+    };
+    for (int k = 0; k < 3; ++k) expect_slope(by_place, k, kByPlace + k);
+    for (int k = 0; k < 3; ++k) expect_slope(by_aim, k, kByShared + k);
+    for (int c = 0; c < kBroadChanges; ++c) expect_slope(by_shape, c, kByShared + NearLampUnknowns::kAim + c);
   }
 }
 
 TEST(NearLampIncidence, IsZeroWhereTheLampDoesNotReach) {
-  const Incidence found =
-      incidence_of(near_lamp(0, 0, 0.7f), Eigen::Matrix<float, 3, 2>::Zero(), {0, 0, 0}, {0, 0, 1}, 1);
-  EXPECT_EQ(found.value, 0);
-  EXPECT_EQ(found.lamp.norm(), 0);
+  const OnePointRegion away(kScene.center, {0, 0, 1});
+  const ShadingDerivatives found =
+      shading_derivatives(near_lamp(0, 0, 0.7f), kScene, away.region, away.region.surface);
+  EXPECT_TRUE(found.isZero(0));
+  EXPECT_EQ(incidence_at(near_lamp(0, 0, 0.7f), kScene, kScene.center, {0, 0, 1}), 0);
+}
+
+TEST(Highlights, AreHalfAsBrightAtTheAnglesThatTheirLobesSay) {
+  Lamp lamp = near_lamp(0, 0, 0.7f);
+  const Eigen::Vector3f to_eye = -kScene.center.normalized();
+  lamp.direction = to_eye;  // lamp and eye in one line: half-way is the way to the eye
+  constexpr float kHalves[] = {16.8f, 8.4f};
+  for (int j = 0; j < kHighlightLobes; ++j) {
+    const auto lobe_at = [&](float degrees) {
+      const Eigen::Vector3f normal =
+          Eigen::AngleAxisf(degrees * 3.14159265f / 180, to_eye.unitOrthogonal()) * to_eye;
+      const SurfacePoints at = one_point(kScene.center, normal);
+      Eigen::ArrayXXf values(at.rows(), kHighlightLobes);
+      float* lobes[] = {values.col(0).data(), values.col(1).data()};
+      kernels::highlight_lobes(near_light(lamp, kScene), at.runs(), at.rows(), lobes);
+      return values(0, j);
+    };
+    EXPECT_NEAR(lobe_at(0), 1, 1e-4f);
+    EXPECT_NEAR(lobe_at(kHalves[j]), 0.5f, 0.01f);
+    EXPECT_EQ(lobe_at(100), 0) << "the lamp is behind the surface";
+  }
+}
+
+TEST(Gram, IsTheProductOfAllPairsOfRuns) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  for (const Eigen::Index rows : {Eigen::Index{16}, Eigen::Index{48}, Eigen::Index{336}}) {
+    Eigen::MatrixXf values(rows, 3 * kernels::kGramRuns);
+    for (Eigen::Index k = 0; k < values.size(); ++k) values(k) = normal(random);
+    Eigen::MatrixXf found(values.cols(), values.cols());
+    kernels::gram(values.data(), rows, static_cast<int>(values.cols()), static_cast<int>(rows), found.data());
+    const Eigen::MatrixXf expected = values.transpose() * values;
+    for (Eigen::Index a = 0; a < found.rows(); ++a)
+      for (Eigen::Index b = 0; b <= a; ++b) EXPECT_NEAR(found(a, b), expected(a, b), 1e-3f);
+  }
 }
 
 /// Sensor's depth of the sphere, 2 x 2 pixels a reading, that pulls it a little away.
@@ -99,7 +177,8 @@ TEST(NearLampEquations, TheirRightHandSideIsTheEnergysSlope) {
   for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance *= 0.8f;
   const DepthPrior prior = pull_on(lit.sphere);
   const BroadShape shape{lit.sphere.grid, prior};
-  const auto regions = sample_lamp_regions(lit.images, &shape, lit.state, lit.images.pixels);
+  const auto samples = sample_lamp_regions(lit.images, lit.state, lit.images.pixels);
+  const auto regions = lamp_regions(samples, &shape, lit.state);
   const NearLampUnknowns at{lit.state.lamps, lit.state.scene, Gloss(0.02, 0.03)};
   Eigen::VectorXd found = Eigen::VectorXd::Zero(at.size()), slope = found;
   for (const NearLampEquations& region : near_lamp_equations(regions, at)) found -= 2 * region.b;
@@ -118,7 +197,8 @@ TEST(NearLampEquations, TheirRightHandSideIsTheEnergysSlope) {
 
 TEST(NearLampEquations, KnowNothingOfAFactorThatAlbedoAndStrengthShare) {
   const NearlyLitSphere lit;
-  const auto regions = sample_lamp_regions(lit.images, nullptr, lit.state, lit.images.pixels);
+  const auto samples = sample_lamp_regions(lit.images, lit.state, lit.images.pixels);
+  const auto regions = lamp_regions(samples, nullptr, lit.state);
   const NearLampUnknowns at{lit.state.lamps, lit.state.scene};
   Eigen::VectorXd brighter = Eigen::VectorXd::Zero(at.size());
   for (size_t i = 0; i < at.lamps.size(); ++i) {
@@ -177,7 +257,7 @@ TEST(NearLamps, AreFoundFromTwiceTooFarAway) {
   NearlyLitSphere lit;
   for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance /= 2;
   Gloss gloss = Gloss::Zero();
-  for (int i = 0; i < 10; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state, gloss);
+  for (int i = 0; i < 10; ++i) fit_near_lamps(lit.samples(), nullptr, {}, lit.state, gloss);
   for (size_t i = 0; i < lit.truth.size(); ++i) {
     const Eigen::Vector3d expected = lamp_position(lit.truth[i], lit.state.scene);
     EXPECT_LT((lamp_position(lit.state.lamps[i], lit.state.scene) - expected).norm(), 0.01)
@@ -193,7 +273,7 @@ TEST(NearLamps, OfFarLightMoveAway) {
   lit.images = test::images_of(lit.state);
   for (Lamp& lamp : lit.state.lamps) lamp.inverse_distance = 1;
   Gloss gloss = Gloss::Zero();
-  for (int i = 0; i < 10; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state, gloss);
+  for (int i = 0; i < 10; ++i) fit_near_lamps(lit.samples(), nullptr, {}, lit.state, gloss);
   for (const Lamp& lamp : lit.state.lamps) EXPECT_LT(lamp.inverse_distance, 0.02f);
 }
 
@@ -205,7 +285,7 @@ TEST(NearLamps, AtGivenPositionsKeepThemAndFitTheirStrength) {
   options.fixed_positions = true;
   options.steps = 10;
   Gloss gloss = Gloss::Zero();
-  fit_near_lamps(lit.images, nullptr, options, lit.state, gloss);
+  fit_near_lamps(lit.samples(), nullptr, options, lit.state, gloss);
   const std::vector<Lamp>& found = lit.state.lamps;
   for (size_t i = 0; i < lit.truth.size(); ++i) {
     EXPECT_TRUE(found[i].direction.isApprox(lit.truth[i].direction, 1e-6f));
@@ -219,7 +299,7 @@ TEST(NearLamps, FarOnesAreLeftAlone) {
   lit.state.lamps[1] = test::far_lamp(0.3f, 0.2f);
   const Eigen::Matrix3f before = lit.state.lamps[1].l;
   Gloss gloss = Gloss::Zero();
-  fit_near_lamps(lit.images, nullptr, {}, lit.state, gloss);
+  fit_near_lamps(lit.samples(), nullptr, {}, lit.state, gloss);
   EXPECT_EQ(lit.state.lamps[1].l, before);
 }
 
@@ -242,7 +322,7 @@ double error_under_gloss_and_shadow(bool highlights, Gloss& gloss) {
   NearLampOptions options;
   options.highlights = highlights;
   gloss.setZero();
-  for (int i = 0; i < 20; ++i) fit_near_lamps(lit.images, nullptr, options, lit.state, gloss);
+  for (int i = 0; i < 20; ++i) fit_near_lamps(lit.samples(), nullptr, options, lit.state, gloss);
   double sum = 0;
   for (size_t i = 0; i < lit.truth.size(); ++i)
     sum +=
@@ -283,7 +363,7 @@ TEST(NearLampPrior, PullsAPowerThatTheOthersDoNotShare) {
 TEST(NearLampSearch, FindsLampsWithoutAStart) {
   NearlyLitSphere lit;
   for (Lamp& lamp : lit.state.lamps) lamp.direction = Eigen::Vector3f(0, 0, -1);
-  const std::vector<Lamp> found = search_near_lamps(lit.images, lit.state);
+  const std::vector<Lamp> found = NearLampSearch(lit.images, lit.state).lamps(lit.state);
   for (size_t i = 0; i < lit.truth.size(); ++i) {
     EXPECT_GT(found[i].direction.dot(lit.truth[i].direction), std::cos(0.2f)) << "radians, lamp " << i;
     EXPECT_NEAR(found[i].inverse_distance, lit.truth[i].inverse_distance, 0.6f) << "1/m, lamp " << i;
@@ -293,7 +373,7 @@ TEST(NearLampSearch, FindsLampsWithoutAStart) {
 /// A lamp whose image two places explain about as well: the one of the others' power is taken.
 TEST(NearLampSearch, DoesNotTakeALampOfAnotherPowerForAFartherOne) {
   NearlyLitSphere lit;
-  const std::vector<Lamp> found = search_near_lamps(lit.images, lit.state);
+  const std::vector<Lamp> found = NearLampSearch(lit.images, lit.state).lamps(lit.state);
   for (const Lamp& lamp : found) EXPECT_NEAR(log_lamp_power(lamp), log_lamp_power(lit.truth[0]), 0.7);
 }
 
@@ -335,10 +415,10 @@ Spread spread_under_noise(float deviation) {
     });
     lit.state.lamps = lit.truth;
     Gloss gloss = Gloss::Zero();
-    for (int i = 0; i < 4; ++i) fit_near_lamps(lit.images, nullptr, {}, lit.state, gloss);
+    for (int i = 0; i < 4; ++i) fit_near_lamps(lit.samples(), nullptr, {}, lit.state, gloss);
     const double error = 1 / static_cast<double>(lit.state.lamps[0].inverse_distance) - 0.7;
     errors[draw] = error;
-    const LampUncertainty told = near_lamp_uncertainty(lit.images, nullptr, {}, lit.state, gloss)[0];
+    const LampUncertainty told = near_lamp_uncertainty(lit.samples(), nullptr, {}, lit.state, gloss)[0];
     spread.told += told.distance_deviation / kDraws;
     spread.told_direction += told.direction_deviation / kDraws;
   }
