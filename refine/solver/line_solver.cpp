@@ -29,7 +29,11 @@ void with_row_count(int rows, const Body& body) {
 
 int rows_left(const StencilGrid& A, int first, int step) { return (A.height - first + step - 1) / step; }
 
-/// @return whether every pivot is positive
+/// A pivot below this share of its diagonal is rounding. Where few fine pixels hang on more coarse ones, as at a frayed rim, the
+/// coarse matrix is singular though the fine one is not; so small a pivot is raised, which keeps the solve positive definite.
+constexpr float kRounding = 1e-6f;
+
+/// @return whether no pivot is clearly negative
 template <size_t kRows>
 bool factorize_rows(const StencilGrid& A, int first, float* inverse_pivot, float* multiplier) {
   std::array<float, kRows> coupling{}, before{};
@@ -37,10 +41,11 @@ bool factorize_rows(const StencilGrid& A, int first, float* inverse_pivot, float
   for (int i = 0; i < A.width; ++i) {
     for (size_t k = 0; k < kRows; ++k) {
       const Index at = A.at(i, first + static_cast<int>(k));
-      const float pivot = A.diagonal[at] - coupling[k] * before[k];
-      const bool inside = A.diagonal[at] != 0.0f;
-      if (inside) least = std::min(least, pivot);
-      inverse_pivot[at] = inside && pivot > 0.0f ? 1.0f / pivot : 0.0f;
+      const float diagonal = A.diagonal[at], rounding = kRounding * diagonal;
+      const float pivot = diagonal - coupling[k] * before[k];
+      const bool inside = diagonal != 0.0f;
+      if (inside) least = std::min(least, pivot + rounding);
+      inverse_pivot[at] = diagonal > 0.0f ? 1.0f / std::max(pivot, rounding) : 0.0f;
       coupling[k] = A.right[at];
       multiplier[at] = before[k] = coupling[k] * inverse_pivot[at];
     }

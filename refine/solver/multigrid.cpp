@@ -134,6 +134,8 @@ bool Multigrid::factorize_coarsest() {
     couple(i + s + 1, A.down_right[i]);
     couple(i + s - 1, A.down_left[i]);
   }
+  constexpr double kRounding = 1e-6;  // as of the lines' pivots
+  dense.diagonal() *= 1 + kRounding;
   coarsest_.compute(dense);
   return coarsest_.info() == Eigen::Success;
 }
