@@ -29,9 +29,10 @@ void with_row_count(int rows, const Body& body) {
 
 int rows_left(const StencilGrid& A, int first, int step) { return (A.height - first + step - 1) / step; }
 
-/// A pivot below this share of its diagonal is rounding. Where few fine pixels hang on more coarse ones, as at a frayed rim, the
-/// coarse matrix is singular though the fine one is not; so small a pivot is raised, which keeps the solve positive definite.
-constexpr float kRounding = 1e-6f;
+/// Where few fine pixels hang on more coarse ones, as at a frayed rim, the coarse matrix is singular though the fine one is not,
+/// and rounding puts its pivots on either side of zero. A pivot below the first share of its diagonal is raised to it, which
+/// keeps the solve positive definite; only one below minus the second speaks of a matrix that is not.
+constexpr float kLeastPivot = 1e-5f, kRounding = 1e-3f;
 
 /// @return whether no pivot is clearly negative
 template <size_t kRows>
@@ -41,11 +42,9 @@ bool factorize_rows(const StencilGrid& A, int first, float* inverse_pivot, float
   for (int i = 0; i < A.width; ++i) {
     for (size_t k = 0; k < kRows; ++k) {
       const Index at = A.at(i, first + static_cast<int>(k));
-      const float diagonal = A.diagonal[at], rounding = kRounding * diagonal;
-      const float pivot = diagonal - coupling[k] * before[k];
-      const bool inside = diagonal != 0.0f;
-      if (inside) least = std::min(least, pivot + rounding);
-      inverse_pivot[at] = diagonal > 0.0f ? 1.0f / std::max(pivot, rounding) : 0.0f;
+      const float diagonal = A.diagonal[at], pivot = diagonal - coupling[k] * before[k];
+      if (diagonal != 0.0f) least = std::min(least, pivot + kRounding * diagonal);
+      inverse_pivot[at] = diagonal > 0.0f ? 1.0f / std::max(pivot, kLeastPivot * diagonal) : 0.0f;
       coupling[k] = A.right[at];
       multiplier[at] = before[k] = coupling[k] * inverse_pivot[at];
     }

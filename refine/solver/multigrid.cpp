@@ -134,8 +134,8 @@ bool Multigrid::factorize_coarsest() {
     couple(i + s + 1, A.down_right[i]);
     couple(i + s - 1, A.down_left[i]);
   }
-  constexpr double kRounding = 1e-6;  // as of the lines' pivots
-  dense.diagonal() *= 1 + kRounding;
+  constexpr double kLeastPivot = 1e-4;  // it may be singular, as the lines' may
+  dense.diagonal() *= 1 + kLeastPivot;
   coarsest_.compute(dense);
   return coarsest_.info() == Eigen::Success;
 }
