@@ -2,9 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stack/float_tiff.h"
 
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <fcntl.h>
+#include <tiffio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "stack/checked_file.h"
 #include "stack/errors.h"
@@ -15,8 +22,6 @@ namespace rakelight {
 namespace fs = std::filesystem;
 namespace {
 
-/// None, said explicitly: OpenCV's default for three float channels is LogLuv, which is lossy and without negative values.
-constexpr int kUncompressed = 1;
 constexpr std::uint64_t kMaxFileBytes = kMaxImagePixels * 12 + (16 << 20);
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& fault) {
@@ -25,6 +30,61 @@ constexpr std::uint64_t kMaxFileBytes = kMaxImagePixels * 12 + (16 << 20);
 
 std::string text(const cv::Size& size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
+
+/// libtiff's view of a file in memory.
+struct MemoryFile {
+  const Bytes& bytes;
+  std::size_t at = 0;
+};
+
+tmsize_t read_memory(thandle_t handle, void* to, tmsize_t size) {
+  auto& file = *static_cast<MemoryFile*>(handle);
+  const std::size_t count = std::min(static_cast<std::size_t>(size), file.bytes.size() - file.at);
+  std::memcpy(to, file.bytes.data() + file.at, count);
+  file.at += count;
+  return static_cast<tmsize_t>(count);
+}
+
+tmsize_t write_nothing(thandle_t, void*, tmsize_t) { return 0; }
+
+toff_t seek_memory(thandle_t handle, toff_t offset, int whence) {
+  auto& file = *static_cast<MemoryFile*>(handle);
+  const toff_t from = whence == SEEK_SET ? 0 : whence == SEEK_CUR ? file.at : file.bytes.size();
+  file.at = static_cast<std::size_t>(std::min<toff_t>(from + offset, file.bytes.size()));
+  return file.at;
+}
+
+int close_memory(thandle_t) { return 0; }
+toff_t size_of_memory(thandle_t handle) { return static_cast<MemoryFile*>(handle)->bytes.size(); }
+
+using Tiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
+
+/// libtiff says on the standard error what a caller is told by an exception.
+void silence_libtiff() {
+  static const bool once = [] {
+    TIFFSetErrorHandler(nullptr);
+    TIFFSetWarningHandler(nullptr);
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+std::uint32_t field(TIFF* tiff, std::uint32_t tag) {
+  std::uint16_t value = 0;
+  TIFFGetFieldDefaulted(tiff, tag, &value);
+  return value;
+}
+
+/// Rows from the strips. @return false where the file says one thing and holds another
+bool read_rows(TIFF* tiff, cv::Mat& image) {
+  const auto row_bytes = static_cast<tmsize_t>(static_cast<std::size_t>(image.cols) * image.elemSize());
+  if (TIFFIsTiled(tiff) || field(tiff, TIFFTAG_PLANARCONFIG) != PLANARCONFIG_CONTIG ||
+      TIFFScanlineSize(tiff) != row_bytes)
+    return false;
+  for (int y = 0; y < image.rows; ++y)
+    if (TIFFReadScanline(tiff, image.ptr(y), static_cast<std::uint32_t>(y)) != 1) return false;
+  return true;
 }
 
 cv::Mat read(const fs::path& file, int type, const ExpectedSize& expected) {
@@ -38,22 +98,45 @@ cv::Mat read(const fs::path& file, int type, const ExpectedSize& expected) {
   if (expected && size != *expected) {
     refuse(file, "is " + text(size) + " pixels instead of " + text(*expected));
   }
-  cv::Mat image;
-  try {
-    image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    image.release();  // OpenCV reports some damage by an exception, some by an empty image
-  }
-  if (image.size() != size || image.type() != type) refuse(file, "is damaged");
+  silence_libtiff();
+  MemoryFile memory{bytes};
+  const Tiff tiff(TIFFClientOpen("memory", "rm", &memory, read_memory, write_nothing, seek_memory, close_memory,
+                                 size_of_memory, nullptr, nullptr),
+                  TIFFClose);
+  cv::Mat image(size, type);
+  if (!tiff || !read_rows(tiff.get(), image)) refuse(file, "is damaged");
   return image;
 }
 
-void write(const fs::path& file, const cv::Mat& image) {
-  Bytes bytes;
-  if (!cv::imencode(".tiff", image, bytes, {cv::IMWRITE_TIFF_COMPRESSION, kUncompressed})) {
-    throw IoError("cannot encode " + file.string() + "; its image is empty or too large");
+bool write_rows(TIFF* tiff, const cv::Mat& image) {
+  const bool rgb = image.channels() == 3;
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, image.cols);
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, image.rows);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 32);
+  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, image.channels());
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, rgb ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(tiff, 0));
+  std::vector<unsigned char> row(static_cast<std::size_t>(image.cols) * image.elemSize());
+  for (int y = 0; y < image.rows; ++y) {
+    std::memcpy(row.data(), image.ptr(y), row.size());  // libtiff may change what it is given
+    if (TIFFWriteScanline(tiff, row.data(), static_cast<std::uint32_t>(y), 0) != 1) return false;
   }
-  write_file(file, bytes.data(), bytes.size());
+  return TIFFFlush(tiff) == 1;
+}
+
+/// Row by row to the disk: the maps of a result are its largest files.
+void write(const fs::path& file, const cv::Mat& image) {
+  if (image.empty()) throw IoError("cannot encode " + file.string() + "; its image is empty");
+  silence_libtiff();
+  const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd < 0) throw_io_error("create", file, errno);
+  errno = 0;
+  const Tiff tiff(TIFFFdOpen(fd, file.c_str(), "w"), TIFFClose);
+  if (!tiff) ::close(fd);
+  if (!tiff || !write_rows(tiff.get(), image)) throw_io_error("write", file, errno != 0 ? errno : EIO);
 }
 
 }  // namespace
@@ -63,17 +146,11 @@ cv::Mat1f read_float_tiff(const fs::path& file, const ExpectedSize& size) {
 }
 
 cv::Mat3f read_float3_tiff(const fs::path& file, const ExpectedSize& size) {
-  cv::Mat3f image;
-  cv::cvtColor(read(file, CV_32FC3, size), image, cv::COLOR_BGR2RGB);
-  return image;
+  return read(file, CV_32FC3, size);
 }
 
 void write_tiff(const fs::path& file, const cv::Mat1f& image) { write(file, image); }
 
-void write_tiff(const fs::path& file, const cv::Mat3f& image) {
-  cv::Mat3f backwards;
-  cv::cvtColor(image, backwards, cv::COLOR_RGB2BGR);
-  write(file, backwards);
-}
+void write_tiff(const fs::path& file, const cv::Mat3f& image) { write(file, image); }
 
 }  // namespace rakelight

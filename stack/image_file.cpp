@@ -3,12 +3,12 @@
 #include "stack/image_file.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "stack/checked_file.h"
 #include "stack/errors.h"
 #include "stack/png_header.h"
+#include "stack/png_pixels.h"
 
 namespace rakelight {
 namespace fs = std::filesystem;
@@ -36,28 +36,33 @@ PngHeader checked_header(const fs::path& file, const std::vector<cv::Size>& size
   return header;
 }
 
-/// Decodes checked bytes as they are; empty if OpenCV cannot.
-cv::Mat decode(const Bytes& bytes) {
-  try {
-    return cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) { return {}; }  // each caller says which file it was
-}
-
 /// Bytes a PNG of this header may have: incompressible pixels, and room for texts and colour profiles.
 std::uint64_t largest_file(const PngHeader& header) {
   const std::uint64_t raw = std::uint64_t{header.width} * header.height * 8;
   return raw + raw / 16 + (std::uint64_t{16} << 20);
 }
 
-cv::Mat decode_png(const fs::path& file, const PngHeader& header) {
-  const Bytes bytes = read_file(file, largest_file(header));
-  // Parsed again: the file may have changed since its first bytes were read.
+/// All bytes of a file whose header was read before, checked.
+Bytes checked_bytes(const fs::path& file, const PngHeader& header) {
+  Bytes bytes = read_file(file, largest_file(header));
   const PngHeader now = parse_png_header(bytes.data(), bytes.size(), file.string());
   check_png_bytes(bytes.data(), bytes.size(), file.string());
-  const bool unchanged = now.width == header.width && now.height == header.height;
-  cv::Mat image = unchanged ? decode(bytes) : cv::Mat();
-  if (image.empty()) throw InputError(file.string(), "cannot be decoded", "copy or record it again");
-  return image;
+  if (!(now == header)) throw InputError(file.string(), "changed while it was read", "read it again");
+  return bytes;
+}
+
+cv::Mat decoded(const fs::path& file, const cv::Mat& pixels) {
+  if (pixels.empty()) throw InputError(file.string(), "cannot be decoded", "copy or record it again");
+  return pixels;
+}
+
+/// @param kind "grey" or "RGB"
+cv::Mat plain_pixels(const fs::path& file, const PngHeader& header, const std::string& kind) {
+  const Bytes bytes = checked_bytes(file, header);
+  if (png_has_transparency(bytes)) {
+    throw InputError(file.string(), "is not a plain " + kind + " image", "save it without transparency");
+  }
+  return decoded(file, png_pixels(bytes, header));
 }
 
 }  // namespace
@@ -68,12 +73,7 @@ cv::Mat read_color_png(const fs::path& file, const ExpectedSize& size) {
     throw InputError(file.string(), "is not an RGB image",
                      "save it as 8- or 16-bit RGB without transparency");
   }
-  cv::Mat image = decode_png(file, header);
-  if (image.type() != CV_8UC3 && image.type() != CV_16UC3) {
-    throw InputError(file.string(), "is not a plain RGB image", "save it without transparency");
-  }
-  cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
-  return image;
+  return plain_pixels(file, header, "RGB");
 }
 
 cv::Mat1w read_depth_png(const fs::path& file, const ExpectedSize& size) {
@@ -81,11 +81,7 @@ cv::Mat1w read_depth_png(const fs::path& file, const ExpectedSize& size) {
   if (header.color != PngHeader::Color::gray || header.bit_depth != 16) {
     throw InputError(file.string(), "is not a 16-bit grey image", "save depth as 16-bit grey PNG");
   }
-  const cv::Mat image = decode_png(file, header);
-  if (image.type() != CV_16UC1) {
-    throw InputError(file.string(), "is not a plain grey image", "save it without transparency");
-  }
-  return image;
+  return plain_pixels(file, header, "grey");
 }
 
 cv::Mat1b read_mask_png(const fs::path& file, const std::vector<cv::Size>& sizes) {
@@ -94,28 +90,23 @@ cv::Mat1b read_mask_png(const fs::path& file, const std::vector<cv::Size>& sizes
     throw InputError(file.string(), "has 16 bits a channel", "save the mask as 8-bit grey, 255 = object");
   }
   cv::Mat1b mask;
-  cv::extractChannel(decode_png(file, header), mask, 0);
+  constexpr int kBlue = 2;
+  cv::extractChannel(decoded(file, png_rgba(checked_bytes(file, header), header)), mask, kBlue);
   cv::threshold(mask, mask, 127, 255, cv::THRESH_BINARY);
   return mask;
 }
 
 cv::Mat1b read_gray_png(const fs::path& file) {
-  cv::Mat image = decode_png(file, checked_header(file, {}));
-  if (image.channels() == 4) cv::cvtColor(image, image, cv::COLOR_BGRA2GRAY);
-  if (image.channels() == 3) cv::cvtColor(image, image, cv::COLOR_BGR2GRAY);
+  const PngHeader header = checked_header(file, {});
+  cv::Mat image = decoded(file, png_rgba(checked_bytes(file, header), header));
+  cv::cvtColor(image, image, cv::COLOR_RGBA2GRAY);
   if (image.depth() == CV_16U) cv::normalize(image, image, 0, 255, cv::NORM_MINMAX, CV_8U);
   return image;
 }
 
 void write_png(const fs::path& file, const cv::Mat& image) {
-  cv::Mat stored = image;
-  if (image.channels() == 3) {
-    stored = cv::Mat();  // conversion in place would turn the caller's pixels
-    cv::cvtColor(image, stored, cv::COLOR_RGB2BGR);
-  }
-  Bytes bytes;
-  // Encoded in memory because cv::imwrite does not notice a full disk.
-  if (!cv::imencode(".png", stored, bytes)) throw IoError("cannot encode " + file.string());
+  const Bytes bytes = png_bytes(image);
+  if (bytes.empty()) throw IoError("cannot encode " + file.string());
   write_file(file, bytes.data(), bytes.size());
 }
 

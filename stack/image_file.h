@@ -20,7 +20,7 @@ cv::Mat read_color_png(const std::filesystem::path& file, const ExpectedSize& si
 /// A 16-bit grey PNG of raw depth. @throws InputError, IoError.
 cv::Mat1w read_depth_png(const std::filesystem::path& file, const ExpectedSize& size = {});
 
-/// A mask of any PNG kind up to 8 bits a channel: 255 where its first channel is at least 128, else 0.
+/// A mask of any PNG kind up to 8 bits a channel: 255 where grey, or blue, is at least 128, else 0.
 /// @param sizes it may have; empty: any  @throws InputError, IoError.
 cv::Mat1b read_mask_png(const std::filesystem::path& file, const std::vector<cv::Size>& sizes = {});
 

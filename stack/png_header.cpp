@@ -4,6 +4,8 @@
 // PNG specification (ISO/IEC 15948), sections 5.2-5.5 and 11.2.2.
 #include "stack/png_header.h"
 
+#include <libdeflate.h>
+
 #include <algorithm>
 #include <array>
 
@@ -14,23 +16,6 @@ namespace {
 
 constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr const char* kCopyAgain = "copy or record it again";
-
-constexpr std::array<std::uint32_t, 256> crc_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t n = 0; n < 256; ++n) {
-    std::uint32_t c = n;
-    for (int bit = 0; bit < 8; ++bit) c = (c & 1u) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
-    table[n] = c;
-  }
-  return table;
-}
-
-std::uint32_t crc(const unsigned char* data, std::size_t size) {
-  static constexpr std::array<std::uint32_t, 256> kTable = crc_table();
-  std::uint32_t c = 0xffffffffu;
-  for (std::size_t i = 0; i < size; ++i) c = kTable[(c ^ data[i]) & 0xffu] ^ (c >> 8);
-  return ~c;
-}
 
 std::uint32_t big_endian(const unsigned char* data) {
   return std::uint32_t{data[0]} << 24 | std::uint32_t{data[1]} << 16 | std::uint32_t{data[2]} << 8 | data[3];
@@ -55,12 +40,17 @@ bool allowed(int color, int bits) {
 
 }  // namespace
 
+bool PngHeader::operator==(const PngHeader& other) const {
+  return width == other.width && height == other.height && bit_depth == other.bit_depth &&
+         color == other.color && interlaced == other.interlaced;
+}
+
 PngHeader parse_png_header(const unsigned char* data, std::size_t size, const std::string& file) {
   if (size < kSignature.size() || !std::equal(kSignature.begin(), kSignature.end(), data)) {
     throw InputError(file, "is not a PNG image", "convert it to PNG");
   }
   if (size < kPngHeaderBytes || big_endian(data + 8) != 13 || !is_type(data + 12, "IHDR") ||
-      crc(data + 12, 17) != big_endian(data + 29) || !allowed(data[25], data[24])) {
+      libdeflate_crc32(0, data + 12, 17) != big_endian(data + 29) || !allowed(data[25], data[24])) {
     throw InputError(file, "has a damaged PNG header", kCopyAgain);
   }
   PngHeader header;
@@ -68,6 +58,7 @@ PngHeader parse_png_header(const unsigned char* data, std::size_t size, const st
   header.height = big_endian(data + 20);
   header.bit_depth = data[24];
   header.color = static_cast<PngHeader::Color>(data[25]);
+  header.interlaced = data[28] != 0;
   const std::string size_text = std::to_string(header.width) + " x " + std::to_string(header.height);
   if (header.width == 0 || header.height == 0) throw InputError(file, "has no pixels", kCopyAgain);
   if (header.width > kMaxImageSide || header.height > kMaxImageSide ||
@@ -83,7 +74,7 @@ void check_png_bytes(const unsigned char* data, std::size_t size, const std::str
     const std::size_t length = big_endian(data + at);
     if (length > size - at - 12) break;
     const unsigned char* type = data + at + 4;
-    if (crc(type, length + 4) != big_endian(type + 4 + length)) {
+    if (libdeflate_crc32(0, type, length + 4) != big_endian(type + 4 + length)) {
       throw InputError(file,
                        "is damaged (checksum of the PNG chunk at byte " + std::to_string(at) + " is wrong)",
                        kCopyAgain);
@@ -94,6 +85,18 @@ void check_png_bytes(const unsigned char* data, std::size_t size, const std::str
     return;
   }
   throw InputError(file, "is cut short at byte " + std::to_string(size), kCopyAgain);
+}
+
+std::vector<PngChunk> png_chunks(const unsigned char* data, std::size_t size) {
+  std::vector<PngChunk> chunks;
+  for (std::size_t at = kSignature.size(); size >= at + 12;) {
+    const std::size_t length = big_endian(data + at);
+    if (length > size - at - 12) break;
+    const auto* const type = reinterpret_cast<const char*>(data + at + 4);
+    chunks.push_back({{type, 4}, data + at + 8, length});
+    at += length + 12;
+  }
+  return chunks;
 }
 
 }  // namespace rakelight

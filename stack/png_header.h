@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a PNG file claims and whether its bytes are whole, before any pixel is allocated. libpng decodes what it can
-// of a damaged file and OpenCV hands that on, so damage has to be found here.
+// What a PNG file claims and whether its bytes are whole, before any pixel is allocated. Damage is found here: what decodes the
+// pixels does not look at checksums again.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace rakelight {
 
@@ -16,6 +18,9 @@ struct PngHeader {
   std::uint32_t width = 0, height = 0;
   int bit_depth = 0;  ///< bits a channel: 1, 2, 4, 8 or 16
   Color color = Color::gray;
+  bool interlaced = false;  ///< Adam7
+
+  bool operator==(const PngHeader& other) const;
 };
 
 /// Bytes from the start of a file that parse_png_header needs: signature and IHDR.
@@ -30,5 +35,14 @@ PngHeader parse_png_header(const unsigned char* data, std::size_t size, const st
 
 /// Checks the CRC of every chunk and that the file ends with IEND. @throws InputError if bytes are missing or changed.
 void check_png_bytes(const unsigned char* data, std::size_t size, const std::string& file);
+
+struct PngChunk {
+  std::string_view type;  ///< four letters
+  const unsigned char* data = nullptr;
+  std::size_t size = 0;
+};
+
+/// The chunks of a file whose bytes are whole, in order.
+std::vector<PngChunk> png_chunks(const unsigned char* data, std::size_t size);
 
 }  // namespace rakelight

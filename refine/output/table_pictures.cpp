@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "refine/depth_normals.h"
 #include "refine/output/error_map.h"
 #include "refine/output/images.h"
+#include "refine/output/jpeg.h"
 #include "refine/output/pictures.h"
 #include "stack/atomic_folder.h"
 #include "stack/checked_file.h"
 #include "stack/color_response.h"
-#include "stack/errors.h"
 #include "stack/image_file.h"
 
 namespace rakelight {
@@ -74,12 +73,8 @@ cv::Mat3b strip(const std::array<cv::Mat3b, 4>& pictures, const cv::Rect& box, c
 }
 
 void write_jpeg(const std::filesystem::path& file, const cv::Mat3b& picture) {
-  cv::Mat3b stored;
-  cv::cvtColor(picture, stored, cv::COLOR_RGB2BGR);
-  Bytes bytes;
-  if (!cv::imencode(".jpg", stored, bytes, {cv::IMWRITE_JPEG_QUALITY, 85})) {
-    throw IoError("cannot encode " + file.string());
-  }
+  constexpr int kQuality = 85;
+  const std::vector<unsigned char> bytes = jpeg_bytes(picture, kQuality);
   write_file(file, bytes.data(), bytes.size());
 }
 

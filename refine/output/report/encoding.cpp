@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/output/report/encoding.h"
 
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "stack/errors.h"
+#include "refine/output/jpeg.h"
 
 namespace rakelight {
 
@@ -27,11 +25,7 @@ std::string base64(const void* data, std::size_t size) {
 }
 
 std::string jpeg_uri(const cv::Mat& picture, int quality) {
-  cv::Mat stored = picture;
-  if (picture.channels() == 3) cv::cvtColor(picture, stored, cv::COLOR_RGB2BGR);
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".jpg", stored, bytes, {cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_OPTIMIZE, 1}))
-    throw IoError("cannot encode a picture of the report");
+  const std::vector<unsigned char> bytes = jpeg_bytes(picture, quality);
   return "data:image/jpeg;base64," + base64(bytes.data(), bytes.size());
 }
 

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Rakelight authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stack/png_pixels.h"
+
+#include <libdeflate.h>
+#include <spng.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "stack/png_filters.h"
+
+namespace rakelight {
+namespace {
+
+using Inflater = std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>;
+using Spng = std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)>;
+
+/// What all IDAT chunks hold.
+Bytes deflated_pixels(const Bytes& png) {
+  Bytes result;
+  result.reserve(png.size());
+  for (const PngChunk& chunk : png_chunks(png.data(), png.size()))
+    if (chunk.type == "IDAT") result.insert(result.end(), chunk.data, chunk.data + chunk.size);
+  return result;
+}
+
+/// PNG's 16-bit numbers are big-endian.
+void to_native_order(cv::Mat& image) {
+  if (image.depth() != CV_16U) return;
+  const std::size_t bytes = image.total() * image.elemSize();
+  unsigned char* at = image.data;
+  for (std::size_t k = 0; k < bytes; k += 2) {
+    const auto value = static_cast<std::uint16_t>(at[k] << 8 | at[k + 1]);
+    std::memcpy(at + k, &value, 2);
+  }
+}
+
+cv::Mat inflated_pixels(const Bytes& deflated, const PngHeader& header, int type) {
+  const auto rows = static_cast<int>(header.height), columns = static_cast<int>(header.width);
+  const auto pixel_bytes = static_cast<int>(CV_ELEM_SIZE(type));
+  const std::size_t row_bytes = static_cast<std::size_t>(columns) * static_cast<std::size_t>(pixel_bytes);
+  const std::size_t all = (row_bytes + 1) * static_cast<std::size_t>(rows);
+  const std::unique_ptr<unsigned char[]> filtered(new unsigned char[all]);
+  const Inflater inflater(libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+  if (!inflater) throw std::bad_alloc();
+  // No place for the size it has: exactly these bytes are demanded.
+  if (libdeflate_zlib_decompress(inflater.get(), deflated.data(), deflated.size(), filtered.get(), all,
+                                 nullptr) != LIBDEFLATE_SUCCESS)
+    return {};
+  cv::Mat image(rows, columns, type);
+  for (int y = 0; y < rows; ++y) {
+    const unsigned char* from = filtered.get() + static_cast<std::size_t>(y) * (row_bytes + 1);
+    if (!undo_png_filter(from, y > 0 ? image.ptr(y - 1) : nullptr, row_bytes, pixel_bytes, image.ptr(y)))
+      return {};
+  }
+  to_native_order(image);
+  return image;
+}
+
+cv::Mat decoded_by_spng(const Bytes& bytes, const PngHeader& header, int type, spng_format format) {
+  const Spng spng(spng_ctx_new(0), spng_ctx_free);
+  if (!spng) throw std::bad_alloc();
+  cv::Mat image(static_cast<int>(header.height), static_cast<int>(header.width), type);
+  const bool decoded =
+      spng_set_png_buffer(spng.get(), bytes.data(), bytes.size()) == 0 &&
+      spng_decode_image(spng.get(), image.data, image.total() * image.elemSize(), format, 0) == 0;
+  return decoded ? image : cv::Mat();
+}
+
+}  // namespace
+
+bool png_has_transparency(const Bytes& bytes) {
+  const std::vector<PngChunk> chunks = png_chunks(bytes.data(), bytes.size());
+  return std::any_of(chunks.begin(), chunks.end(), [](const PngChunk& each) { return each.type == "tRNS"; });
+}
+
+cv::Mat png_pixels(const Bytes& bytes, const PngHeader& header) {
+  const bool gray = header.color == PngHeader::Color::gray, rgb = header.color == PngHeader::Color::rgb;
+  if ((!gray && !rgb) || header.bit_depth < 8) return {};
+  const int type = CV_MAKETYPE(header.bit_depth == 16 ? CV_16U : CV_8U, gray ? 1 : 3);
+  return header.interlaced ? decoded_by_spng(bytes, header, type, SPNG_FMT_PNG)
+                           : inflated_pixels(deflated_pixels(bytes), header, type);
+}
+
+cv::Mat png_rgba(const Bytes& bytes, const PngHeader& header) {
+  return header.bit_depth == 16 ? decoded_by_spng(bytes, header, CV_16UC4, SPNG_FMT_RGBA16)
+                                : decoded_by_spng(bytes, header, CV_8UC4, SPNG_FMT_RGBA8);
+}
+
+Bytes png_bytes(const cv::Mat& image) {
+  constexpr int kFastest = 1, kRunLengths = 3;  // of zlib: rows of differences have little else to find
+  const Spng spng(spng_ctx_new(SPNG_CTX_ENCODER), spng_ctx_free);
+  if (!spng) throw std::bad_alloc();
+  const cv::Mat stored = image.isContinuous() ? image : image.clone();
+  spng_ihdr header{};
+  header.width = static_cast<std::uint32_t>(stored.cols);
+  header.height = static_cast<std::uint32_t>(stored.rows);
+  header.bit_depth = stored.depth() == CV_16U ? 16 : 8;
+  header.color_type =
+      static_cast<std::uint8_t>(stored.channels() == 3 ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_GRAYSCALE);
+  if (stored.empty() || (stored.channels() != 1 && stored.channels() != 3) || stored.depth() > CV_16U ||
+      stored.depth() == CV_8S)
+    return {};
+  spng_set_option(spng.get(), SPNG_ENCODE_TO_BUFFER, 1);
+  spng_set_option(spng.get(), SPNG_IMG_COMPRESSION_LEVEL, kFastest);
+  spng_set_option(spng.get(), SPNG_IMG_COMPRESSION_STRATEGY, kRunLengths);
+  spng_set_option(spng.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB);
+  if (spng_set_ihdr(spng.get(), &header) != 0 ||
+      spng_encode_image(spng.get(), stored.data, stored.total() * stored.elemSize(), SPNG_FMT_PNG,
+                        SPNG_ENCODE_FINALIZE) != 0)
+    return {};
+  std::size_t size = 0;
+  int error = 0;
+  const std::unique_ptr<void, decltype(&std::free)> encoded(spng_get_png_buffer(spng.get(), &size, &error), std::free);
+  const auto* const data = static_cast<const unsigned char*>(encoded.get());
+  return error == 0 && data != nullptr ? Bytes(data, data + size) : Bytes();
+}
+
+}  // namespace rakelight
