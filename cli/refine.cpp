@@ -95,7 +95,7 @@ std::vector<Output> outputs_of(const Arguments& arguments) {
 }
 
 LightStack stack_of(const Arguments& arguments) {
-  LightStack stack = read_stack(arguments.stack);
+  LightStack stack = read_stack(arguments.stack, Colors::on_disk);
   if (arguments.response && *arguments.response != "auto")
     stack.color_response = parse_color_response(*arguments.response);
   if (arguments.mask) stack.mask = *arguments.mask == "auto" ? cv::Mat1b() : read_mask(*arguments.mask);

@@ -50,4 +50,15 @@ cv::Mat3d normals_from_depth(const Camera& camera, const cv::Mat1f& depth) {
   return normals;
 }
 
+cv::Mat3f normals_in(const cv::Rect& part, const Camera& camera, const cv::Mat1f& depth) {
+  Camera here = camera;
+  here.width = part.width;
+  here.height = part.height;
+  here.cx -= part.x;
+  here.cy -= part.y;
+  cv::Mat3f normals;
+  normals_from_depth(here, depth(part)).convertTo(normals, CV_32F);
+  return normals;
+}
+
 }  // namespace rakelight

@@ -13,4 +13,7 @@ namespace rakelight {
 /// @param depth metres, on the camera's grid
 cv::Mat3d normals_from_depth(const Camera& camera, const cv::Mat1f& depth);
 
+/// The same in a part of the grid alone, whose borders count as the surface's.
+cv::Mat3f normals_in(const cv::Rect& part, const Camera& camera, const cv::Mat1f& depth);
+
 }  // namespace rakelight

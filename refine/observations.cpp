@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <limits>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "stack/color_response.h"
 #include "stack/errors.h"
+#include "stack/parallel.h"
 
 namespace rakelight {
 namespace {
@@ -51,11 +51,13 @@ class ColorSampler {
 };
 
 /// Mean of the dark frames, empty if there are none.
-cv::Mat3f ambient_image(const LightStack& stack) {
+cv::Mat3f ambient_image(const LightStack& stack, const FrameVisitor& visit) {
   cv::Mat3f sum;
   int count = 0;
-  for (const Frame& frame : stack.frames) {
-    if (frame.light || frame.color.empty()) continue;
+  for (size_t at = 0; at < stack.frames.size(); ++at) {
+    if (stack.frames[at].light || !has_color(stack.frames[at])) continue;
+    const Frame frame = with_color(stack.frames[at]);
+    visit(at, frame);
     const cv::Mat3f dark = linear_color(stack, frame);
     if (sum.empty())
       sum = dark;
@@ -164,32 +166,33 @@ void Observations::copy_channel(const Observations& from, int from_image, int im
   encoding_[at] = from.encoding_[source];
 }
 
-Observations observe(const LightStack& stack, const PixelGrid& grid) {
-  std::vector<const Frame*> lit;
-  for (const Frame& frame : stack.frames)
-    if (frame.light && !frame.color.empty()) lit.push_back(&frame);
+Observations observe(const LightStack& stack, const PixelGrid& grid, const FrameVisitor& visit_or_not) {
+  const FrameVisitor visit = visit_or_not ? visit_or_not : [](std::size_t, const Frame&) {};
+  std::vector<size_t> lit;
+  for (size_t at = 0; at < stack.frames.size(); ++at)
+    if (stack.frames[at].light && has_color(stack.frames[at])) lit.push_back(at);
   Observations out(grid.size(), static_cast<int>(lit.size()));
-  for (const Frame* frame : lit) {
-    const Light& light = light_of(stack, *frame);
+  for (const size_t at : lit) {
+    const Light& light = light_of(stack, stack.frames[at]);
     out.light_ids.push_back(light.id);
     out.colored_lamps.push_back(light.color == LampColor::rgb);
     out.lamp_positions.push_back(light.position_m);
-    out.frame_index.push_back(frame->index);
+    out.frame_index.push_back(stack.frames[at].index);
   }
   const ColorSampler sample(stack.color_camera, grid.camera);
-  const cv::Mat3f ambient = ambient_image(stack);
+  const cv::Mat3f ambient = ambient_image(stack, visit);
   const cv::Rect needed = sample.needed(grid.box, stack.color_camera.size());
-  cv::parallel_for_(cv::Range(0, out.images), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) {
-      Frame frame;
-      frame.color = lit[static_cast<size_t>(i)]->color(needed);
-      cv::Mat3f color = linear_color(stack, frame);
-      if (!ambient.empty()) color -= ambient(needed);
-      cv::Mat3b clipped = saturated_channels(frame);
-      if (!stack.color_crosstalk.isIdentity()) cv::merge(std::vector<cv::Mat>(3, saturated(frame)), clipped);
-      set_image(grid, sample(color), sample(clipped),
-                needed.size() == grid.box.size() ? needed.tl() : cv::Point(), i, out);
-    }
+  in_parallel(out.images, [&](int i) {
+    const size_t at = lit[static_cast<size_t>(i)];
+    Frame frame = with_color(stack.frames[at]);
+    visit(at, frame);
+    frame.color = frame.color(needed);
+    cv::Mat3f color = linear_color(stack, frame);
+    if (!ambient.empty()) color -= ambient(needed);
+    cv::Mat3b clipped = saturated_channels(frame);
+    if (!stack.color_crosstalk.isIdentity()) cv::merge(std::vector<cv::Mat>(3, saturated(frame)), clipped);
+    set_image(grid, sample(color), sample(clipped),
+              needed.size() == grid.box.size() ? needed.tl() : cv::Point(), i, out);
   });
   return out;
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -97,8 +98,12 @@ class Observations {
   std::vector<Encoding> encoding_;    ///< [image][channel]
 };
 
+/// Called with the position in LightStack::frames of a frame that has colour, and the frame, decoded; from several threads.
+using FrameVisitor = std::function<void(std::size_t position, const Frame& frame)>;
+
 /// Samples every lit frame of the stack on the grid, whose camera is the colour camera, undistorted and averaged down.
 /// Dark frames are subtracted. Images are decoded in parallel; each thread holds one at a time.
-Observations observe(const LightStack& stack, const PixelGrid& grid);
+/// @param visit is shown every frame with colour on the way, each once: reading an image from the disk again takes time
+Observations observe(const LightStack& stack, const PixelGrid& grid, const FrameVisitor& visit = {});
 
 }  // namespace rakelight

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/problem.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -75,6 +76,17 @@ std::vector<unsigned char> depth_jumps(const PixelGrid& grid, const Eigen::Vecto
   return cut;
 }
 
+void observe_and_shrink(const LightStack& stack, const cv::Mat1b& mask, RefineProblem& problem) {
+  const std::vector<std::size_t> positions = thumbnail_frames(stack);
+  problem.thumbnails.resize(positions.size());
+  problem.images = observe(stack, problem.grid, [&](std::size_t at, const Frame& frame) {
+    const auto place = std::lower_bound(positions.begin(), positions.end(), at);
+    if (place == positions.end() || *place != at) return;
+    problem.thumbnails[static_cast<std::size_t>(place - positions.begin())] =
+        frame_thumbnail(at, frame, mask);
+  });
+}
+
 }  // namespace
 
 RefineProblem make_problem(const LightStack& stack, const RefineOptions& options) {
@@ -103,7 +115,7 @@ RefineProblem make_problem(const LightStack& stack, const RefineOptions& options
     problem.cut_down = depth_jumps(problem.grid, problem.prior.start, kDown, problem.depth_noise);
     problem.corners = make_corners(problem.grid, options.depth.stencil, problem.cut_right, problem.cut_down);
   }
-  problem.images = observe(stack, problem.grid);
+  observe_and_shrink(stack, mask, problem);
   return problem;
 }
 

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "refine/frame_thumbnails.h"
 #include "refine/observations.h"
 #include "refine/options.h"
 #include "refine/steps/normals.h"
@@ -23,6 +24,7 @@ struct RefineProblem {
   std::vector<unsigned char> cut_right,
       cut_down;  ///< [pixel] 1 where that step crosses a depth jump; empty in preset paper
   Observations images;
+  std::vector<FrameThumbnail> thumbnails;  ///< of the first frames
   DepthPrior prior;  ///< cell_weight is relative: 1 where the sensor has a reading, 0 where z0 was filled in
   double depth_noise = 0;  ///< deviation of one depth reading in log depth
 };

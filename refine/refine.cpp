@@ -126,6 +126,7 @@ RefineResult make_result(const RefineProblem& problem, MethodResult method, cons
   result.warnings.insert(result.warnings.end(), quality.warnings.begin(), quality.warnings.end());
   result.quality["coverage"] = 1.0 - static_cast<double>(cv::countNonZero(result.inpainted)) / grid.size();
   result.quality["depth_noise_m"] = problem.sensor.noise_m;
+  result.thumbnails = problem.thumbnails;
   result.options = options;
   result.options.scale = problem.scale;
   return result;
@@ -172,7 +173,8 @@ struct Decoding {
 Decoding decide_response(const LightStack& stack, const RefineOptions& options,
                          const ProgressCallback& progress) {
   if (!options.estimate_response) return {stack, {}};
-  Decoding decoding{stack, estimate_response(stack, options, [&](double fraction) {
+  const LightStack whole = in_memory(stack);  // every image is looked at several times
+  Decoding decoding{whole, estimate_response(whole, options, [&](double fraction) {
                       report(progress, "finding the colour response", kPreparation * fraction, 0);
                       return true;
                     })};

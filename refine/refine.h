@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "refine/frame_thumbnails.h"
 #include "refine/options.h"
 #include "refine/response_estimate.h"
 #include "stack/stack.h"
@@ -71,7 +72,8 @@ struct RefineResult {
   std::string message;                    ///< one sentence on how it ended
   std::vector<std::string> warnings;      ///< one sentence each
   std::map<std::string, double> quality;  ///< named measures, e.g. "coverage", "image_noise", "depth_noise_m"
-  ColorResponse color_response;           ///< what colour values were taken to mean
+  std::vector<FrameThumbnail> thumbnails;             ///< of the stack's first frames
+  ColorResponse color_response;                       ///< what colour values were taken to mean
   std::optional<ResponseEstimate> response_estimate;  ///< with RefineOptions::estimate_response
   RefineOptions options;                              ///< every parameter used, resolved
 };

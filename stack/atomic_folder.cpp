@@ -159,9 +159,9 @@ void AtomicFolder::commit() {
   fs::remove_all(old_, ignored);
 }
 
-FolderIdentity folder_identity(const fs::path& folder) {
+FileIdentity file_identity(const fs::path& path) {
   struct stat status {};
-  if (::stat(folder.c_str(), &status) != 0) return {};
+  if (::stat(path.c_str(), &status) != 0) return {};
   return {status.st_dev, status.st_ino, status.st_ctim.tv_sec, status.st_ctim.tv_nsec};
 }
 

@@ -52,18 +52,18 @@ class AtomicFolder {
   int lock_fd_ = -1;
 };
 
-/// What tells a folder from the one that replaced it: a reader of several files compares it before and after.
-struct FolderIdentity {
+/// What tells a file or folder from the one that replaced it: a reader compares it before and after.
+struct FileIdentity {
   std::uint64_t device = 0, inode = 0;
   std::int64_t changed_s = 0, changed_ns = 0;  ///< an inode's number may be given again, but later
 
-  bool operator==(const FolderIdentity& other) const {
+  bool operator==(const FileIdentity& other) const {
     return device == other.device && inode == other.inode && changed_s == other.changed_s &&
            changed_ns == other.changed_ns;
   }
 };
 
-/// All zero if there is no such folder.
-FolderIdentity folder_identity(const std::filesystem::path& folder);
+/// All zero if there is no such file or folder.
+FileIdentity file_identity(const std::filesystem::path& path);
 
 }  // namespace rakelight

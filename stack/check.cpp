@@ -90,8 +90,9 @@ void check_depth(const LightStack& stack) {
 
 void check_light(const LightStack& stack) {
   bool any = false, all_black = true, all_saturated = true;
-  for (const Frame& frame : stack.frames) {
-    if (frame.color.empty() || !frame.light) continue;
+  for (const Frame& each : stack.frames) {
+    if (!has_color(each) || !each.light) continue;
+    const Frame frame = with_color(each);
     any = true;
     const bool black = is_black(stack, frame);
     const bool saturated = !black && saturated_share(stack, frame) > kSaturatedImage;

@@ -100,8 +100,8 @@ cv::Mat read(const fs::path& file, int type, const ExpectedSize& expected) {
   }
   silence_libtiff();
   MemoryFile memory{bytes};
-  const Tiff tiff(TIFFClientOpen("memory", "rm", &memory, read_memory, write_nothing, seek_memory, close_memory,
-                                 size_of_memory, nullptr, nullptr),
+  const Tiff tiff(TIFFClientOpen("memory", "rm", &memory, read_memory, write_nothing, seek_memory,
+                                 close_memory, size_of_memory, nullptr, nullptr),
                   TIFFClose);
   cv::Mat image(size, type);
   if (!tiff || !read_rows(tiff.get(), image)) refuse(file, "is damaged");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "stack/atomic_folder.h"
 #include "stack/checked_file.h"
 #include "stack/errors.h"
 #include "stack/png_header.h"
@@ -74,6 +75,20 @@ cv::Mat read_color_png(const fs::path& file, const ExpectedSize& size) {
                      "save it as 8- or 16-bit RGB without transparency");
   }
   return plain_pixels(file, header, "RGB");
+}
+
+std::function<cv::Mat()> later_color_png(const fs::path& file, const ExpectedSize& size) {
+  return [file, size, then = file_identity(file)] {
+    const auto check_identity = [&] {
+      if (!(file_identity(file) == then))
+        throw BusyError(file.string() +
+                        ": another program has changed or replaced it; read it when that is done");
+    };
+    check_identity();
+    cv::Mat image = read_color_png(file, size);
+    check_identity();
+    return image;
+  };
 }
 
 cv::Mat1w read_depth_png(const fs::path& file, const ExpectedSize& size) {

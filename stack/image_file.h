@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -16,6 +17,10 @@ using ExpectedSize = std::optional<cv::Size>;
 
 /// An 8- or 16-bit RGB PNG as CV_8UC3 or CV_16UC3, channels R, G, B. @throws InputError, IoError.
 cv::Mat read_color_png(const std::filesystem::path& file, const ExpectedSize& size = {});
+
+/// What reads such an image later, as often as it is wanted. It throws BusyError where the file is another one by then or
+/// has changed.
+std::function<cv::Mat()> later_color_png(const std::filesystem::path& file, const ExpectedSize& size);
 
 /// A 16-bit grey PNG of raw depth. @throws InputError, IoError.
 cv::Mat1w read_depth_png(const std::filesystem::path& file, const ExpectedSize& size = {});

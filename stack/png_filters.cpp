@@ -26,8 +26,7 @@ Pixel pixel_at(const unsigned char* bytes) {
 
 template <class Word>
 void put(const Pixel& pixel, unsigned char* bytes) {
-  const auto word =
-      static_cast<Word>(cv::v_reinterpret_as_u64(cv::v_pack_u(pixel, pixel)).get0());
+  const auto word = static_cast<Word>(cv::v_reinterpret_as_u64(cv::v_pack_u(pixel, pixel)).get0());
   std::memcpy(bytes, &word, sizeof word);
 }
 
@@ -35,8 +34,8 @@ void put(const Pixel& pixel, unsigned char* bytes) {
 Pixel predicted(const Pixel& left, const Pixel& up, const Pixel& above_left) {
   const Pixel vertical = up - above_left, horizontal = left - above_left, sum = vertical + horizontal,
               zero = cv::v_setzero_s16();
-  const Pixel to_left = cv::v_max(vertical, zero - vertical), to_up = cv::v_max(horizontal, zero - horizontal),
-              to_above_left = cv::v_max(sum, zero - sum);
+  const Pixel to_left = cv::v_max(vertical, zero - vertical),
+              to_up = cv::v_max(horizontal, zero - horizontal), to_above_left = cv::v_max(sum, zero - sum);
   const Pixel least = cv::v_min(to_above_left, cv::v_min(to_left, to_up));
   return cv::v_select(least == to_left, left, cv::v_select(least == to_up, up, above_left));
 }
@@ -49,7 +48,8 @@ void undo_paeth(const unsigned char* from, const unsigned char* above, std::size
   const Pixel byte = cv::v_setall_s16(0xff);
   Pixel left = cv::v_setzero_s16(), above_left = left;
   std::size_t k = 0;
-  for (; k + sizeof(Word) <= bytes; k += kPixel) {  // a word may reach into the next pixel, which is written after it
+  for (; k + sizeof(Word) <= bytes;
+       k += kPixel) {  // a word may reach into the next pixel, which is written after it
     const Pixel up = pixel_at<Word>(above + k);
     left = (pixel_at<Word>(from + k) + predicted(left, up, above_left)) & byte;
     above_left = up;

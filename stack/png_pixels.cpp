@@ -101,8 +101,8 @@ Bytes png_bytes(const cv::Mat& image) {
   header.width = static_cast<std::uint32_t>(stored.cols);
   header.height = static_cast<std::uint32_t>(stored.rows);
   header.bit_depth = stored.depth() == CV_16U ? 16 : 8;
-  header.color_type =
-      static_cast<std::uint8_t>(stored.channels() == 3 ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_GRAYSCALE);
+  header.color_type = static_cast<std::uint8_t>(stored.channels() == 3 ? SPNG_COLOR_TYPE_TRUECOLOR
+                                                                       : SPNG_COLOR_TYPE_GRAYSCALE);
   if (stored.empty() || (stored.channels() != 1 && stored.channels() != 3) || stored.depth() > CV_16U ||
       stored.depth() == CV_8S)
     return {};
@@ -116,7 +116,8 @@ Bytes png_bytes(const cv::Mat& image) {
     return {};
   std::size_t size = 0;
   int error = 0;
-  const std::unique_ptr<void, decltype(&std::free)> encoded(spng_get_png_buffer(spng.get(), &size, &error), std::free);
+  const std::unique_ptr<void, decltype(&std::free)> encoded(spng_get_png_buffer(spng.get(), &size, &error),
+                                                            std::free);
   const auto* const data = static_cast<const unsigned char*>(encoded.get());
   return error == 0 && data != nullptr ? Bytes(data, data + size) : Bytes();
 }

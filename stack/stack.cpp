@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "stack/parallel.h"
+
 namespace rakelight {
 
 std::string to_string(LampColor color) {
@@ -20,6 +22,23 @@ std::string to_string(LampColor color) {
       return "rgb";
   }
   return "white";
+}
+
+bool has_color(const Frame& frame) { return !frame.color.empty() || frame.read_color; }
+
+Frame with_color(const Frame& frame) {
+  Frame whole = frame;
+  if (whole.color.empty() && whole.read_color) whole.color = whole.read_color();
+  whole.read_color = nullptr;
+  return whole;
+}
+
+LightStack in_memory(LightStack stack) {
+  in_parallel(static_cast<int>(stack.frames.size()), [&](int k) {
+    Frame& frame = stack.frames[static_cast<std::size_t>(k)];
+    frame = with_color(frame);
+  });
+  return stack;
 }
 
 Camera binned(const Camera& camera, double factor) {

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -64,7 +65,19 @@ struct Frame {
   cv::Mat1w depth;  ///< raw sensor units (metres = raw * depth_unit_m), 0 = no reading; may be empty
   Timestamp color_time, depth_time, led_edge_time;
   std::optional<LitCheck> lit_check;
+  /// Decodes `color` anew at every call, where it is left on the disk (open_stack); else empty. Safe from several threads.
+  std::function<cv::Mat()> read_color;
 };
+
+/// Whether the frame has a colour image, in memory or on the disk.
+bool has_color(const Frame& frame);
+
+/// The frame with its colour image in memory, as all functions that look at Frame::color want it.
+/// @throws what Frame::read_color throws
+Frame with_color(const Frame& frame);
+
+/// Where a reader leaves the colour images: most of what a stack takes.
+enum class Colors { in_memory, on_disk };
 
 /// How a colour value in [0, 1] encodes radiance: linear, the sRGB curve, or value = radiance^(1/gamma).
 struct ColorResponse {
@@ -99,6 +112,9 @@ struct LightStack {
   std::string origin;        ///< the folder it was read from (for messages), or empty
   std::string unknown_keys;  ///< manifest keys this version does not know, as JSON text: kept on writing
 };
+
+/// The stack with all its colour images in memory. @throws what Frame::read_color throws
+LightStack in_memory(LightStack stack);
 
 /// A lamp as it truly is. A unit of `strength` gives a facing surface of albedo 1 a radiance of 1 (encoded full scale):
 /// far lamps everywhere, near lamps at the distance of the object's centre.

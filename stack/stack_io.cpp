@@ -47,7 +47,7 @@ void check_memory(const Manifest& manifest, const fs::path& file) {
   }
 }
 
-LightStack read_files(const fs::path& folder) {
+LightStack read_files(const fs::path& folder, Colors colors) {
   const fs::path file = path_inside(folder, kManifest);
   const Bytes bytes = read_file(file, kMaxManifestBytes);
   Manifest manifest = parse_manifest(std::string(bytes.begin(), bytes.end()), file.string());
@@ -58,7 +58,12 @@ LightStack read_files(const fs::path& folder) {
     const auto i = static_cast<std::size_t>(k);
     const auto& [color, depth] = manifest.files[i];
     Frame& frame = stack.frames[i];
-    if (!color.empty()) frame.color = read_color_png(path_inside(folder, color), stack.color_camera.size());
+    if (!color.empty()) {
+      const fs::path image = path_inside(folder, color);
+      const cv::Size size = stack.color_camera.size();
+      if (colors == Colors::in_memory) frame.color = read_color_png(image, size);
+      if (colors == Colors::on_disk) frame.read_color = later_color_png(image, size);
+    }
     if (!depth.empty()) frame.depth = read_depth_png(path_inside(folder, depth), stack.depth_camera.size());
   });
   if (present(folder / kMask)) {
@@ -69,14 +74,14 @@ LightStack read_files(const fs::path& folder) {
 }
 
 /// All files of one stack, even if a writer replaces the folder meanwhile.
-LightStack read_stack_folder(const fs::path& folder) {
+LightStack read_stack_folder(const fs::path& folder, Colors colors) {
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
-    const FolderIdentity before = folder_identity(folder);
+    const FileIdentity before = file_identity(folder);
     try {
-      LightStack stack = read_files(folder);
-      if (folder_identity(folder) == before) return stack;
+      LightStack stack = read_files(folder, colors);
+      if (file_identity(folder) == before) return stack;
     } catch (const InputError&) {
-      if (folder_identity(folder) == before) throw;
+      if (file_identity(folder) == before) throw;
     }
   }
   throw BusyError(folder.string() + ": another program keeps replacing it; read it when that is done");
@@ -128,9 +133,9 @@ void make_folder(const fs::path& folder) {
 
 }  // namespace
 
-LightStack read_stack(const fs::path& folder) {
-  if (present(folder / kManifest)) return read_stack_folder(folder);
-  if (is_photometric_sr(folder)) return import_photometric_sr(folder);
+LightStack read_stack(const fs::path& folder, Colors colors) {
+  if (present(folder / kManifest)) return read_stack_folder(folder, colors);
+  if (is_photometric_sr(folder)) return import_photometric_sr(folder, colors);
   if (is_diligent(folder)) return import_diligent(folder);
   if (!present(folder)) throw InputError(folder.string(), "does not exist", "check the path");
   throw InputError(folder.string(), "is neither a stack (no stack.json) nor a known source folder",
@@ -139,7 +144,8 @@ LightStack read_stack(const fs::path& folder) {
 
 cv::Mat1b read_mask(const fs::path& file) { return read_mask_png(file); }
 
-void write_stack(const LightStack& stack, const fs::path& folder, const std::optional<GroundTruth>& truth) {
+void write_stack(const LightStack& given, const fs::path& folder, const std::optional<GroundTruth>& truth) {
+  const LightStack stack = in_memory(given);
   check_pixels(stack);
   const std::vector<FrameFiles> files = name_files(stack);
   const std::string manifest = manifest_text(stack, files);

@@ -13,8 +13,10 @@ namespace rakelight {
 
 /// Reads a stack folder, or a source folder of a known importer's layout (imported on the fly).
 /// Every header is checked before pixels are allocated; paths may not leave the folder.
+/// @param colors on_disk: Frame::read_color instead of Frame::color, as far as the layout allows it. The images are then
+///               checked when they are read.
 /// @throws InputError naming the file, the fault and the cure; IoError when the disk fails.
-LightStack read_stack(const std::filesystem::path& folder);
+LightStack read_stack(const std::filesystem::path& folder, Colors colors = Colors::in_memory);
 
 /// Reads a mask image (255 = object). @throws InputError as read_stack.
 cv::Mat1b read_mask(const std::filesystem::path& file);

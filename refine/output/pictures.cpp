@@ -32,12 +32,12 @@ cv::Mat3b painted(const cv::Mat3f& normals) {
   return picture;
 }
 
-/// Crops to the object, shrinks or (small objects) enlarges by whole pixels, and writes the caption above.
-cv::Mat3b panel(const cv::Mat3b& picture, const cv::Rect& box, const std::string& caption) {
-  const double fit = static_cast<double>(kPanelSide) / std::max(box.width, box.height);
+/// Shrinks or (small objects) enlarges by whole pixels, and writes the caption above.
+cv::Mat3b panel(const cv::Mat3b& picture, const std::string& caption) {
+  const double fit = static_cast<double>(kPanelSide) / std::max(picture.cols, picture.rows);
   const double zoom = fit >= 1 ? std::floor(std::min(fit, 4.0)) : fit;
   cv::Mat3b scaled;
-  cv::resize(picture(box), scaled, {}, zoom, zoom, zoom < 1 ? cv::INTER_AREA : cv::INTER_NEAREST);
+  cv::resize(picture, scaled, {}, zoom, zoom, zoom < 1 ? cv::INTER_AREA : cv::INTER_NEAREST);
   cv::Mat3b result(scaled.rows + kCaptionHeight, scaled.cols, cv::Vec3b::all(0));
   scaled.copyTo(result(cv::Rect({0, kCaptionHeight}, scaled.size())));
   cv::putText(result, caption, {8, 25}, cv::FONT_HERSHEY_SIMPLEX, 0.7, cv::Scalar::all(235), 1, cv::LINE_AA);
@@ -59,10 +59,7 @@ cv::Rect object_box(const cv::Mat1f& depth) {
   cv::Mat1b valid(depth.size());
   std::transform(depth.begin(), depth.end(), valid.begin(),
                  [](float z) { return static_cast<uchar>(std::isfinite(z) ? 255 : 0); });
-  const cv::Rect box = cv::boundingRect(valid);
-  const int margin = 4;
-  const cv::Rect wide(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin);
-  return box.empty() ? cv::Rect({0, 0}, depth.size()) : wide & cv::Rect({0, 0}, depth.size());
+  return object_box(valid);
 }
 
 cv::Mat1b raking_light(const cv::Mat3f& normals) {
@@ -81,13 +78,10 @@ cv::Mat1b raking_light(const cv::Mat3f& normals) {
 
 cv::Mat3b before_after_picture(const RefineResult& result) {
   const cv::Rect box = object_box(result.depth);
-  cv::Mat3f before;
-  normals_from_depth(result.camera, result.initial_depth).convertTo(before, CV_32F);
-  const cv::Mat3f& after = result.normals;
-  return arranged(
-      {panel(shaded(before), box, "sensor depth"), panel(shaded(after), box, "refined"),
-       panel(painted(before), box, "sensor normals"), panel(painted(after), box, "refined normals")},
-      box.height > box.width);
+  const cv::Mat3f before = normals_in(box, result.camera, result.initial_depth), after = result.normals(box);
+  return arranged({panel(shaded(before), "sensor depth"), panel(shaded(after), "refined"),
+                   panel(painted(before), "sensor normals"), panel(painted(after), "refined normals")},
+                  box.height > box.width);
 }
 
 }  // namespace rakelight

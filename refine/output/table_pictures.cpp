@@ -84,9 +84,9 @@ PictureRow input_row(const LightStack& stack, const RefineResult& result) {
   PictureRow row{kInput, kInput, result.initial_depth,
                  as_float(normals_from_depth(result.camera, result.initial_depth)), cv::Mat3f()};
   const auto lit = std::find_if(stack.frames.begin(), stack.frames.end(),
-                                [](const Frame& frame) { return frame.light && !frame.color.empty(); });
+                                [](const Frame& frame) { return frame.light && has_color(frame); });
   if (lit == stack.frames.end()) return row;
-  cv::resize(linear_color(stack, *lit), row.albedo, result.depth.size(), 0, 0, cv::INTER_AREA);
+  cv::resize(linear_color(stack, with_color(*lit)), row.albedo, result.depth.size(), 0, 0, cv::INTER_AREA);
   row.albedo.setTo(cv::Scalar::all(NAN), cv::Mat(result.depth == result.depth) == 0);
   return row;
 }

@@ -92,7 +92,8 @@ cv::Mat1w requantised(const cv::Mat1w& raw, const Calibration& calibration) {
   return result;
 }
 
-void add_color_frames(const fs::path& folder, LightStack& stack, std::map<int, Frame>& frames) {
+void add_color_frames(const fs::path& folder, Colors colors, LightStack& stack,
+                      std::map<int, Frame>& frames) {
   const std::map<int, fs::path> files = numbered_images(folder, "RGB", "I_");
   if (files.empty()) {
     throw InputError((folder / "RGB").string(), "has no image I_<number>.png", "put one image a lamp there");
@@ -108,7 +109,8 @@ void add_color_frames(const fs::path& folder, LightStack& stack, std::map<int, F
   const cv::Size size = jobs.front().second->color.size();
   in_parallel(static_cast<int>(jobs.size()) - 1, [&](int k) {
     const auto& [file, frame] = jobs[static_cast<std::size_t>(k) + 1];
-    frame->color = read_color_png(file, size);
+    if (colors == Colors::in_memory) frame->color = read_color_png(file, size);
+    if (colors == Colors::on_disk) frame->read_color = later_color_png(file, size);
   });
   stack.color_camera.width = size.width;
   stack.color_camera.height = size.height;
@@ -148,7 +150,7 @@ bool is_photometric_sr(const fs::path& folder) {
   return fs::is_directory(folder / "RGB", ignored) && fs::exists(folder / "K.txt", ignored);
 }
 
-LightStack import_photometric_sr(const fs::path& folder) {
+LightStack import_photometric_sr(const fs::path& folder, Colors colors) {
   const Calibration calibration = read_calibration(path_inside(folder, "K.txt"));
   LightStack stack;
   stack.origin = folder.string();
@@ -157,7 +159,7 @@ LightStack import_photometric_sr(const fs::path& folder) {
   stack.depth_unit_m = calibration.max_mm / 65535.0 / 1000.0;
 
   std::map<int, Frame> frames;
-  add_color_frames(folder, stack, frames);
+  add_color_frames(folder, colors, stack, frames);
   const Camera& color = stack.color_camera;
   if (color.width % calibration.scale != 0 || color.height % calibration.scale != 0) {
     throw InputError((folder / "K.txt").string(), "scale does not divide the colour images' size",

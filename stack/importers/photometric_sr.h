@@ -21,7 +21,8 @@ namespace rakelight {
 bool is_photometric_sr(const std::filesystem::path& folder);
 
 /// Images pair with depth by their number; both are in natural order (I_2 before I_10).
+/// @param colors on_disk: all but the first colour image, which tells their size, are left there
 /// @throws InputError naming the file, the fault and the cure.
-LightStack import_photometric_sr(const std::filesystem::path& folder);
+LightStack import_photometric_sr(const std::filesystem::path& folder, Colors colors = Colors::in_memory);
 
 }  // namespace rakelight

@@ -57,6 +57,25 @@ TEST(RefineDepth, BringsTheSurfaceNearerToTheTruthAtTheDepthsResolution) {
   EXPECT_LT(after(result).mae_deg, 0.5 * before(result).mae_deg);
 }
 
+TEST(RefineDepth, TakesColoursFromTheDiskAsFromMemoryAndShowsEveryFrameSmall) {
+  const LightStack stack = bump_stack();
+  LightStack left = stack;
+  for (Frame& frame : left.frames) {
+    frame.read_color = [color = frame.color] { return color.clone(); };
+    frame.color = cv::Mat();
+  }
+  RefineOptions options = at_scale(2);
+  options.max_iterations = 2;
+  const RefineResult a = refine_depth(stack, options), b = refine_depth(left, options);
+  EXPECT_EQ(cv::norm(a.depth, b.depth, cv::NORM_INF), 0);
+  ASSERT_EQ(a.thumbnails.size(), stack.frames.size());
+  ASSERT_EQ(b.thumbnails.size(), stack.frames.size());
+  for (size_t k = 0; k < a.thumbnails.size(); ++k) {
+    EXPECT_EQ(a.thumbnails[k].frame, k);
+    EXPECT_EQ(cv::norm(a.thumbnails[k].color, b.thumbnails[k].color, cv::NORM_INF), 0);
+  }
+}
+
 TEST(RefineDepth, BringsTheSurfaceNearerToTheTruthAtTheColoursResolution) {
   const RefineResult& result = refined_x2();
   EXPECT_LT(after(result).mae_deg, kBoundMae);

@@ -143,12 +143,12 @@ TEST_F(AtomicFolderTest, what_a_killed_writer_left_is_put_right) {
 }
 
 TEST_F(AtomicFolderTest, a_folder_that_is_replaced_has_another_identity) {
-  EXPECT_EQ(folder_identity(target), FolderIdentity());
+  EXPECT_EQ(file_identity(target), FileIdentity());
   write_thing(target, "old");
-  const FolderIdentity old = folder_identity(target);
-  EXPECT_EQ(folder_identity(target), old);
+  const FileIdentity old = file_identity(target);
+  EXPECT_EQ(file_identity(target), old);
   write_thing(target, "new");
-  EXPECT_FALSE(folder_identity(target) == old);
+  EXPECT_FALSE(file_identity(target) == old);
 }
 
 TEST_F(AtomicFolderTest, a_full_disk_is_an_io_error_and_the_old_stack_stays) {

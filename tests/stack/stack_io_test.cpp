@@ -87,6 +87,27 @@ TEST_F(StackIo, the_truth_goes_beside_the_stack) {
   EXPECT_TRUE(test::same_pixels(read_truth(stack).albedo, test::small_truth().albedo));
 }
 
+TEST_F(StackIo, colours_left_on_the_disk_are_the_same_when_they_are_asked_for) {
+  LightStack written = small_stack();
+  written.frames[2].color = cv::Mat();
+  write_stack(written, stack);
+  const LightStack left = read_stack(stack, Colors::on_disk);
+  for (const Frame& frame : left.frames) EXPECT_TRUE(frame.color.empty());
+  EXPECT_FALSE(has_color(left.frames[2]));
+  EXPECT_TRUE(has_color(left.frames[1]));
+  EXPECT_TRUE(test::same_pixels(with_color(left.frames[1]).color, written.frames[1].color));
+  expect_same(written, in_memory(left));
+  write_stack(left, folder / "copy");
+  expect_same(written, read_stack(folder / "copy"));
+}
+
+TEST_F(StackIo, colours_left_on_the_disk_are_never_those_of_a_scan_written_since) {
+  write_stack(small_stack(16, 0), stack);
+  const LightStack left = read_stack(stack, Colors::on_disk);
+  write_stack(small_stack(16, 1), stack);
+  EXPECT_THAT(message_of<BusyError>([&] { in_memory(left); }), HasSubstr("replaced"));
+}
+
 TEST_F(StackIo, a_stack_without_mask_and_without_some_images_comes_back) {
   LightStack written = small_stack();
   written.mask = cv::Mat1b();

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <opencv2/core/utility.hpp>
-#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "refine/output/report/encoding.h"
@@ -21,35 +19,10 @@ constexpr int kQuality = 80;
 constexpr double kHighlights = 0.005;  ///< share of the pixels that may clip in the page
 
 struct Preview {
-  cv::Mat3f linear;
+  const Frame& frame;
   double clipped = 0;  ///< share of the object
+  cv::Mat3f linear;
 };
-
-/// The box on an image of another size than its grid.
-cv::Rect on_image(const cv::Rect& box, const cv::Size& grid, const cv::Size& image) {
-  const double sx = static_cast<double>(image.width) / grid.width,
-               sy = static_cast<double>(image.height) / grid.height;
-  const cv::Rect scaled(cvFloor(box.x * sx), cvFloor(box.y * sy), cvCeil(box.width * sx),
-                        cvCeil(box.height * sy));
-  return scaled & cv::Rect({0, 0}, image);
-}
-
-Preview preview(const LightStack& stack, const Frame& frame, const cv::Mat1b& surface, const cv::Rect& box,
-                int side) {
-  Frame cropped = frame;
-  cropped.color = frame.color(on_image(box, surface.size(), frame.color.size()));
-  cv::Mat1b object;
-  cv::resize(surface(box), object, cropped.color.size(), 0, 0, cv::INTER_NEAREST);
-  const int clipped = cv::countNonZero(saturated(cropped) & object);
-  const double shrink =
-      std::min(1.0, static_cast<double>(side) / std::max(cropped.color.cols, cropped.color.rows));
-  if (shrink < 1) {
-    const cv::Size size(std::max(1, cvRound(cropped.color.cols * shrink)),
-                        std::max(1, cvRound(cropped.color.rows * shrink)));
-    cv::resize(cropped.color.clone(), cropped.color, size, 0, 0, cv::INTER_AREA);
-  }
-  return {linear_color(stack, cropped), static_cast<double>(clipped) / std::max(1, cv::countNonZero(object))};
-}
 
 /// Radiance that nearly no pixel of any frame exceeds.
 float white_of(const std::vector<Preview>& previews) {
@@ -78,7 +51,8 @@ cv::Mat3b as_srgb(const cv::Mat3f& linear, float white) {
   return picture;
 }
 
-Json json_of(const LightStack& stack, const Frame& frame, const Preview& preview, float white) {
+Json json_of(const LightStack& stack, const Preview& preview, float white) {
+  const Frame& frame = preview.frame;
   Json json = {{"index", frame.index}, {"lamp", nullptr}, {"color", nullptr}, {"lit", nullptr}};
   if (frame.light) json["lamp"] = *frame.light;
   const auto light = std::find_if(stack.lights.begin(), stack.lights.end(),
@@ -92,21 +66,18 @@ Json json_of(const LightStack& stack, const Frame& frame, const Preview& preview
 
 }  // namespace
 
-Json report_frames(const LightStack& stack, const cv::Mat1b& surface, const cv::Rect& box, int side,
+Json report_frames(const LightStack& stack, const std::vector<FrameThumbnail>& pictures, int side,
                    std::size_t count) {
-  std::vector<const Frame*> shown;
-  for (const Frame& frame : stack.frames) {
-    if (!frame.color.empty() && shown.size() < count) shown.push_back(&frame);
+  std::vector<Preview> previews;
+  for (const FrameThumbnail& picture : pictures) {
+    if (previews.size() == count) break;
+    Frame small;
+    small.color = shrunk(picture.color, side);
+    previews.push_back({stack.frames.at(picture.frame), picture.clipped, linear_color(stack, small)});
   }
-  std::vector<Preview> previews(shown.size());
-  cv::parallel_for_({0, static_cast<int>(shown.size())}, [&](const cv::Range& range) {
-    for (auto k = static_cast<std::size_t>(range.start); k < static_cast<std::size_t>(range.end); ++k)
-      previews[k] = preview(stack, *shown[k], surface, box, side);
-  });
   const float white = white_of(previews);
   Json list = Json::array();
-  for (std::size_t k = 0; k < shown.size(); ++k)
-    list.push_back(json_of(stack, *shown[k], previews[k], white));
+  for (const Preview& preview : previews) list.push_back(json_of(stack, preview, white));
   return list;
 }
 

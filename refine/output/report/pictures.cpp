@@ -37,13 +37,13 @@ cv::Mat3b painted(const cv::Mat3f& normals) {
 std::map<std::string, std::string> report_pictures(const RefineResult& result,
                                                    const cv::Mat3f& sensor_normals, const cv::Rect& box,
                                                    int side, double range_mm) {
-  const cv::Mat3f before = sensor_normals(box), after = result.normals(box);
+  const cv::Mat3f &before = sensor_normals, after = result.normals(box);
   const cv::Mat3b delta = error_map(result.depth(box), result.initial_depth(box), range_mm);
   const std::vector<std::pair<std::string, cv::Mat>> pictures{{"relief_before", raking_light(before)},
                                                               {"relief_after", raking_light(after)},
                                                               {"normals_before", painted(before)},
                                                               {"normals_after", painted(after)},
-                                                              {"albedo", albedo_picture(result.albedo)(box)},
+                                                              {"albedo", albedo_picture(result.albedo(box))},
                                                               {"delta", delta}};
   std::map<std::string, std::string> uris;
   for (const auto& [name, picture] : pictures) uris[name] = jpeg_uri(within(picture, side), kQuality);

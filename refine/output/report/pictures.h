@@ -13,7 +13,7 @@
 namespace rakelight {
 
 /// JPEG data: URIs by the names that page.html has for them: relief, normals (each _before and _after), albedo, delta.
-/// @param sensor_normals of result.initial_depth  @param box the object, pixels  @param side longest, pixels
+/// @param sensor_normals of result.initial_depth, in the box alone  @param box the object, pixels  @param side longest, pixels
 /// @param range_mm at which delta has its full colour
 std::map<std::string, std::string> report_pictures(const RefineResult& result,
                                                    const cv::Mat3f& sensor_normals, const cv::Rect& box,

@@ -26,8 +26,8 @@ constexpr int kHistogramBins = 81;
 
 /// How much of the result the page can show: what makes it large.
 struct Detail {
-  int picture_side = 900, normals_side = 800, surface_samples = 200'000, thumbnail_side = 200;
-  std::size_t thumbnails = 120;
+  int picture_side = 900, normals_side = 800, surface_samples = 200'000, thumbnail_side = kThumbnailSide;
+  std::size_t thumbnails = kMostThumbnails;
 
   Detail reduced() const {
     return {picture_side * 3 / 4, normals_side * 3 / 4, surface_samples / 2, thumbnail_side * 3 / 4,
@@ -71,8 +71,13 @@ Json page_data(const RefineResult& result, const LightStack* stack, const cv::Ma
       {"surface", report_surface(result, sensor_normals, box, detail.surface_samples, detail.normals_side)},
       {"frames_in_stack", stack ? stack->frames.size() : 0},
       {"frames", Json::array()}};
-  const cv::Mat1b surface(result.depth == result.depth);
-  if (stack) data["frames"] = report_frames(*stack, surface, box, detail.thumbnail_side, detail.thumbnails);
+  if (stack) {
+    data["frames"] = report_frames(*stack,
+                                   result.thumbnails.empty()
+                                       ? frame_thumbnails(*stack, cv::Mat(result.depth == result.depth))
+                                       : result.thumbnails,
+                                   detail.thumbnail_side, detail.thumbnails);
+  }
   return data;
 }
 
@@ -106,8 +111,7 @@ std::string page_with(const RefineResult& result, const LightStack* stack, const
 }  // namespace
 
 std::string report_html(const RefineResult& result, const LightStack* stack) {
-  cv::Mat3f sensor_normals;
-  normals_from_depth(result.camera, result.initial_depth).convertTo(sensor_normals, CV_32F);
+  const cv::Mat3f sensor_normals = normals_in(object_box(result.depth), result.camera, result.initial_depth);
   Detail detail;
   std::string page = page_with(result, stack, sensor_normals, detail);
   while (page.size() > kMaxReportBytes && detail.reducible()) {

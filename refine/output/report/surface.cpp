@@ -49,8 +49,8 @@ std::string codes(const cv::Mat1f& depth, const Range& range) {
 }
 
 /// x and y side by side, 0 = -1 to 255 = 1; averaged over the pixels that have a normal.
-cv::Mat1b normal_pair(const cv::Mat3f& normals, const cv::Rect& box, const cv::Size& size) {
-  cv::Mat3f known = normals(box).clone();
+cv::Mat1b normal_pair(const cv::Mat3f& normals, const cv::Size& size) {
+  cv::Mat3f known = normals.clone();
   for (cv::Vec3f& n : known) {
     if (!std::isfinite(n[0] + n[1] + n[2])) n = cv::Vec3f::all(0);
   }
@@ -80,7 +80,7 @@ Json report_surface(const RefineResult& result, const cv::Mat3f& sensor_normals,
   const double shrink = std::min(1.0, static_cast<double>(side) / std::max(box.width, box.height));
   const cv::Size size(std::max(1, cvRound(box.width * shrink)), std::max(1, cvRound(box.height * shrink)));
   cv::Mat1b normals;
-  cv::vconcat(normal_pair(result.normals, box, size), normal_pair(sensor_normals, box, size), normals);
+  cv::vconcat(normal_pair(result.normals(box), size), normal_pair(sensor_normals, size), normals);
   return {{"x", box.x},
           {"y", box.y},
           {"width", box.width},
