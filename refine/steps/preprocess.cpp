@@ -10,6 +10,7 @@
 
 #include "refine/steps/registration.h"
 #include "stack/errors.h"
+#include "stack/parallel.h"
 
 namespace rakelight {
 namespace {
@@ -60,34 +61,60 @@ bool plane_residual(const cv::Mat1f& depth, int u, int v, int r, float& residual
   return true;
 }
 
+std::vector<cv::Mat1f> registered_frames(const LightStack& stack) {
+  std::vector<const Frame*> with_depth;
+  for (const Frame& frame : stack.frames)
+    if (!frame.depth.empty()) with_depth.push_back(&frame);
+  std::vector<cv::Mat1f> frames(with_depth.size());
+  in_parallel(static_cast<int>(frames.size()), [&](int k) {
+    const auto at = static_cast<size_t>(k);
+    frames[at] = registered_depth(stack, *with_depth[at]);
+  });
+  return frames;
+}
+
+std::vector<cv::Mat1f> parts(const std::vector<cv::Mat1f>& images, const cv::Rect& part) {
+  std::vector<cv::Mat1f> result;
+  for (const cv::Mat1f& image : images) result.push_back(image(part));
+  return result;
+}
+
+cv::Rect widened(const cv::Rect& box, int margin, cv::Size image) {
+  return cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+         cv::Rect({0, 0}, image);
+}
+
+/// One row of merge_depth_frames.
+void merge_row(const std::vector<cv::Mat1f>& frames, size_t needed, int v, cv::Mat1f& merged) {
+  std::vector<float> readings, deviations;
+  for (int u = 0; u < merged.cols; ++u) {
+    readings.clear();
+    for (const cv::Mat1f& frame : frames)
+      if (!std::isnan(frame(v, u))) readings.push_back(frame(v, u));
+    if (readings.size() < needed || readings.empty()) continue;
+    // The mean of the readings near the median: the mean alone would mix the two sides of an edge.
+    const float middle = median_of(readings);
+    deviations.clear();
+    for (const float z : readings) deviations.push_back(std::abs(z - middle));
+    const float limit = 3 * 1.4826f * median_of(deviations) + 1e-6f * middle;
+    double sum = 0;
+    int count = 0;
+    for (const float z : readings) {
+      if (std::abs(z - middle) > limit) continue;
+      sum += static_cast<double>(z);
+      ++count;
+    }
+    merged(v, u) = static_cast<float>(sum / count);
+  }
+}
+
 }  // namespace
 
 cv::Mat1f merge_depth_frames(const std::vector<cv::Mat1f>& frames) {
   if (frames.size() == 1) return frames.front();
   cv::Mat1f merged(frames.front().size(), kNaN);
   const size_t needed = std::max<size_t>(1, frames.size() / 3);
-  std::vector<float> readings;
-  for (int v = 0; v < merged.rows; ++v) {
-    for (int u = 0; u < merged.cols; ++u) {
-      readings.clear();
-      for (const cv::Mat1f& frame : frames)
-        if (!std::isnan(frame(v, u))) readings.push_back(frame(v, u));
-      if (readings.size() < needed || readings.empty()) continue;
-      // The mean of the readings near the median: the mean alone would mix the two sides of an edge.
-      const float middle = median_of(readings);
-      std::vector<float> deviations;
-      for (const float z : readings) deviations.push_back(std::abs(z - middle));
-      const float limit = 3 * 1.4826f * median_of(deviations) + 1e-6f * middle;
-      double sum = 0;
-      int count = 0;
-      for (const float z : readings) {
-        if (std::abs(z - middle) > limit) continue;
-        sum += static_cast<double>(z);
-        ++count;
-      }
-      merged(v, u) = static_cast<float>(sum / count);
-    }
-  }
+  in_parallel(merged.rows, [&](int v) { merge_row(frames, needed, v, merged); });
   return merged;
 }
 
@@ -119,15 +146,15 @@ SensorDepth preprocess_depth(const LightStack& stack, const cv::Mat1b& mask,
   SensorDepth result;
   result.camera = registered_depth_camera(stack);
   result.mask = mask;
-  std::vector<cv::Mat1f> frames;
-  for (const Frame& frame : stack.frames)
-    if (!frame.depth.empty()) frames.push_back(registered_depth(stack, frame));
+  const std::vector<cv::Mat1f> frames = registered_frames(stack);
   if (frames.empty()) {
     throw InputError(stack.origin, "no depth frame",
                      "refinement starts from a sensor's depth: add one under depth/");
   }
   result.frames = static_cast<int>(frames.size());
-  result.measured = merge_depth_frames(frames);
+  const cv::Rect object = cv::boundingRect(mask);
+  result.measured = cv::Mat1f(mask.size(), kNaN);
+  merge_depth_frames(parts(frames, object)).copyTo(result.measured(object));
   result.measured.setTo(kNaN, mask == 0);
   const cv::Mat1b known = finite_mask(result.measured);
   if (cv::countNonZero(known) == 0) {
@@ -136,14 +163,15 @@ SensorDepth preprocess_depth(const LightStack& stack, const cv::Mat1b& mask,
   }
   result.inpainted = mask.clone();
   result.inpainted.setTo(0, known);
-  result.noise_m = measure_depth_noise(result.measured, stack.depth_unit_m);
+  result.noise_m = measure_depth_noise(result.measured(object), stack.depth_unit_m);
 
-  const cv::Mat1f filled = inpaint_depth(result.measured, result.inpainted);
+  const cv::Rect around = widened(object, static_cast<int>(2 * options.bilateral_sigma_px) + 8, mask.size());
+  const cv::Mat1f filled = inpaint_depth(result.measured(around), result.inpainted(around));
   const double sigma_m = std::max(options.bilateral_sigma_noise * result.noise_m, 1e-6);
   cv::Mat1f smooth;
   cv::bilateralFilter(filled, smooth, -1, sigma_m, options.bilateral_sigma_px, cv::BORDER_REPLICATE);
-  smooth.setTo(kNaN, mask == 0);
-  result.smooth = smooth;
+  result.smooth = cv::Mat1f(mask.size(), kNaN);
+  smooth.copyTo(result.smooth(around), mask(around));
   return result;
 }
 

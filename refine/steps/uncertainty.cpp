@@ -46,18 +46,18 @@ class SensorDraws {
   SensorDraws(const DepthProblem& depth, int scale, const Eigen::VectorXd& zeta)
       : cells_(depth.prior.cells),
         positions_(cell_positions(depth.grid, cells_, scale)),
-        size_((depth.grid.index.cols + scale - 1) / scale, (depth.grid.index.rows + scale - 1) / scale),
+        box_(cv::boundingRect(positions_)),
         pull_(depth.prior.cell_weight.cwiseProduct(depth.prior.cell_target - cell_means(cells_, zeta))) {
     for (Eigen::Index cell = 0; cell < pull_.size(); ++cell)
       pull_[cell] /= static_cast<double>(cells_.of(static_cast<int>(cell)).size());
   }
 
   Eigen::VectorXd change_of_right_hand_side(Random& random) const {
-    const cv::Mat1f field = smooth_field(size_, kSensorReach, random);
+    const cv::Mat1f field = smooth_field(box_.size(), kSensorReach, random);
     Eigen::VectorXd change(static_cast<Eigen::Index>(cells_.cell_of.size()));
     for (Eigen::Index p = 0; p < change.size(); ++p) {
       const int cell = cells_.cell_of[static_cast<size_t>(p)];
-      change[p] = pull_[cell] * static_cast<double>(field(positions_[static_cast<size_t>(cell)]));
+      change[p] = pull_[cell] * static_cast<double>(field(positions_[static_cast<size_t>(cell)] - box_.tl()));
     }
     return change;
   }
@@ -65,7 +65,7 @@ class SensorDraws {
  private:
   const DepthCells& cells_;
   std::vector<cv::Point> positions_;
-  cv::Size size_;
+  cv::Rect box_;          ///< of the positions
   Eigen::VectorXd pull_;  ///< [cell] weight * (reading - refined depth) / pixels of the cell
 };
 
@@ -117,7 +117,7 @@ Uncertainty estimate_uncertainty(const DepthProblem& depth, int scale, const Obs
 
   for (int first = 0; first < draws; first += kDrawsAtATime) {
     const DrawFactors factors = factors_of_images(images.images, random);
-    const Eigen::MatrixXd rhs =
+    const DrawnSides rhs =
         right_hand_sides(depth, state.zeta, pulls_of_scaled_residuals(images, state, factors));
     for (int k = 0; k < std::min(kDrawsAtATime, draws - first); ++k) {
       if (!solver->solve_again(rhs.col(k) + sensor.change_of_right_hand_side(random), change)) return {};

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "refine/steps/albedo.h"
+#include "refine/steps/quality.h"
 #include "refine/steps/residual_draws.h"
 #include "tests/refine/exact_surface.h"
 
@@ -70,6 +71,84 @@ TEST(Uncertainty, ScaledResidualsPullOnTheNormalsAsChangedImagesDo) {
   Eigen::Matrix3Xf found(3, missed.images.pixels);
   for (int p = 0; p < missed.images.pixels; ++p) found.col(p) = pulls[static_cast<size_t>(p)].col(3);
   EXPECT_TRUE(found.isApprox(difference, 5e-3f));
+}
+
+/// One pixel's pull by the definition (refine/steps/residual_draws.h).
+Eigen::Vector3f pull_by_definition(const Observations& images, const SurfaceState& state, int p,
+                                   const DrawFactors& factors, int draw) {
+  Eigen::Vector3f q = Eigen::Vector3f::Zero(), Sr = q, SS = q;
+  Eigen::Matrix3f by_rho = Eigen::Matrix3f::Zero();
+  for (int i = 0; i < images.images; ++i) {
+    const float w =
+        state.weight[static_cast<size_t>(i) * static_cast<size_t>(images.pixels) + static_cast<size_t>(p)];
+    const Eigen::Vector3f n = state.normals.col(p);
+    const LocalLight light =
+        light_at(state.lamps[static_cast<size_t>(i)], state.points.col(p), n, state.scene);
+    const Eigen::Vector3f S = shading(light, n, state.attached_shadows);
+    for (int c = 0; c < 3; ++c) {
+      if (!images.usable(i, c, p)) continue;
+      const float rho = state.albedo(c, p), r = images.channel(i, c)[p] - rho * S[c];
+      const bool shadowed = state.attached_shadows && light.l.row(c).dot(n) <= 0;
+      const Eigen::Vector3f l = shadowed ? Eigen::Vector3f::Zero() : Eigen::Vector3f(light.l.row(c));
+      q += factors(i, draw) * w * rho * r * l;
+      by_rho.col(c) += w * (r - rho * S[c]) * l;
+      Sr[c] += factors(i, draw) * w * S[c] * r;
+      SS[c] += w * S[c] * S[c];
+    }
+  }
+  return q + by_rho * Sr.cwiseQuotient(SS.cwiseMax(1e-8f));
+}
+
+std::vector<Lamp> near_lamps() {
+  std::vector<Lamp> lamps = test::far_lamps();
+  for (Lamp& lamp : lamps) {
+    lamp.near = true;
+    lamp.direction = lamp.l.row(1).transpose().normalized();
+    lamp.inverse_distance = 1.4f;
+    lamp.strength = {0.8f, 0.9f, 1.1f};
+  }
+  return lamps;
+}
+
+TEST(Uncertainty, PullsOfEveryKindOfLampAreThoseOfTheDefinition) {
+  const MissedSphere missed;
+  for (const std::vector<Lamp>& lamps : {test::far_lamps(), near_lamps(), test::second_order_lamps()}) {
+    SurfaceState state = missed.state;
+    state.lamps = lamps;
+    state.scene.center = state.points.rowwise().mean();
+    for (size_t k = 0; k < state.weight.size(); ++k)
+      state.weight[k] = 0.2f + 0.1f * static_cast<float>(k % 7);
+    Observations images = missed.images;
+    PlainSamples samples = images.plain();
+    for (size_t k = 0; k < samples.usable.size(); k += 5) samples.usable[k] = 0;
+    images.set(samples);
+    const DrawFactors factors = DrawFactors::Random(images.images, kDrawsAtATime);
+    const std::vector<DrawnPulls> pulls = pulls_of_scaled_residuals(images, state, factors);
+    Eigen::Matrix3Xf found(3, images.pixels), expected(3, images.pixels);
+    for (int p = 0; p < images.pixels; ++p) {
+      found.col(p) = pulls[static_cast<size_t>(p)].col(6);
+      expected.col(p) = pull_by_definition(images, state, p, factors, 6);
+    }
+    EXPECT_GT(expected.norm(), 0.01f);
+    EXPECT_TRUE(found.isApprox(expected, 1e-4f));
+  }
+}
+
+TEST(Uncertainty, OfTheImagesCountsTheLampsThatShineOnAPixel) {
+  const MissedSphere missed;
+  for (const std::vector<Lamp>& lamps : {test::far_lamps(), near_lamps()}) {
+    SurfaceState state = missed.state;
+    state.lamps = lamps;
+    const Eigen::VectorXd lit = lit_images(missed.images, state);
+    for (int p = 0; p < missed.images.pixels; ++p) {
+      double expected = 0;
+      for (const Lamp& lamp : lamps) {
+        const LocalLight light = light_at(lamp, state.points.col(p), state.normals.col(p), state.scene);
+        if ((light.l * state.normals.col(p)).maxCoeff() > 0) expected += 1;
+      }
+      ASSERT_EQ(lit[p], expected) << p;
+    }
+  }
 }
 
 /// Depth that nothing but the sensor holds.
