@@ -3,6 +3,7 @@
 #include "stack/float_tiff.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <tiffio.h>
 #include <unistd.h>
 
@@ -127,16 +128,61 @@ bool write_rows(TIFF* tiff, const cv::Mat& image) {
   return TIFFFlush(tiff) == 1;
 }
 
+/// libtiff's view of a file on the disk, and why writing it failed.
+struct DiskFile {
+  int fd = -1;
+  int error = 0;
+};
+
+tmsize_t write_disk(thandle_t handle, void* data, tmsize_t size) {
+  auto& file = *static_cast<DiskFile*>(handle);
+  const char* const from = static_cast<const char*>(data);
+  tmsize_t done = 0;
+  while (done < size) {
+    const ssize_t put = ::write(file.fd, from + done, static_cast<std::size_t>(size - done));
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) {
+      file.error = errno;
+      break;
+    }
+    done += put;
+  }
+  return done;
+}
+
+tmsize_t read_disk(thandle_t handle, void* to, tmsize_t size) {
+  return ::read(static_cast<DiskFile*>(handle)->fd, to, static_cast<std::size_t>(size));
+}
+
+toff_t seek_disk(thandle_t handle, toff_t offset, int whence) {
+  return static_cast<toff_t>(::lseek(static_cast<DiskFile*>(handle)->fd, static_cast<off_t>(offset), whence));
+}
+
+int close_disk(thandle_t handle) {
+  auto& file = *static_cast<DiskFile*>(handle);
+  const int result = ::close(file.fd);
+  if (result != 0 && file.error == 0) file.error = errno;
+  return result;
+}
+
+toff_t size_of_disk(thandle_t handle) {
+  struct stat status {};
+  return ::fstat(static_cast<DiskFile*>(handle)->fd, &status) == 0 ? static_cast<toff_t>(status.st_size) : 0;
+}
+
 /// Row by row to the disk: the maps of a result are its largest files.
 void write(const fs::path& file, const cv::Mat& image) {
   if (image.empty()) throw IoError("cannot encode " + file.string() + "; its image is empty");
   silence_libtiff();
-  const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (fd < 0) throw_io_error("create", file, errno);
-  errno = 0;
-  const Tiff tiff(TIFFFdOpen(fd, file.c_str(), "w"), TIFFClose);
-  if (!tiff) ::close(fd);
-  if (!tiff || !write_rows(tiff.get(), image)) throw_io_error("write", file, errno != 0 ? errno : EIO);
+  DiskFile disk{::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666)};
+  if (disk.fd < 0) throw_io_error("create", file, errno);
+  Tiff tiff(TIFFClientOpen("disk", "wm", &disk, read_disk, write_disk, seek_disk, close_disk, size_of_disk,
+                           nullptr, nullptr),
+            TIFFClose);
+  if (!tiff) ::close(disk.fd);
+  const bool written = tiff && write_rows(tiff.get(), image);
+  tiff.reset();
+  if (!written || disk.error != 0) throw_io_error("write", file, disk.error != 0 ? disk.error : EIO);
 }
 
 }  // namespace
