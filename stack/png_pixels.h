@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Between PNG's bytes and pixels. What a scan stores (grey or RGB, row by row) is inflated at once by libdeflate and its
-// filters undone by vector instructions, 2.5 times as fast as libpng does; libspng decodes every other kind, and encodes.
+// filters undone by vector instructions, about twice as fast as libpng does; libspng decodes every other kind, and encodes.
 #pragma once
 
 #include <opencv2/core.hpp>
