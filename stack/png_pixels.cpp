@@ -2,74 +2,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stack/png_pixels.h"
 
-#include <libdeflate.h>
 #include <spng.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <new>
-
-#include "stack/png_filters.h"
 
 namespace rakelight {
 namespace {
 
-using Inflater = std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>;
 using Spng = std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)>;
 
-/// What all IDAT chunks hold.
-Bytes deflated_pixels(const Bytes& png) {
-  Bytes result;
-  result.reserve(png.size());
-  for (const PngChunk& chunk : png_chunks(png.data(), png.size()))
-    if (chunk.type == "IDAT") result.insert(result.end(), chunk.data, chunk.data + chunk.size);
-  return result;
-}
-
-/// PNG's 16-bit numbers are big-endian.
-void to_native_order(cv::Mat& image) {
-  if (image.depth() != CV_16U) return;
-  const std::size_t bytes = image.total() * image.elemSize();
-  unsigned char* at = image.data;
-  for (std::size_t k = 0; k < bytes; k += 2) {
-    const auto value = static_cast<std::uint16_t>(at[k] << 8 | at[k + 1]);
-    std::memcpy(at + k, &value, 2);
-  }
-}
-
-cv::Mat inflated_pixels(const Bytes& deflated, const PngHeader& header, int type) {
-  const auto rows = static_cast<int>(header.height), columns = static_cast<int>(header.width);
-  const auto pixel_bytes = static_cast<int>(CV_ELEM_SIZE(type));
-  const std::size_t row_bytes = static_cast<std::size_t>(columns) * static_cast<std::size_t>(pixel_bytes);
-  const std::size_t all = (row_bytes + 1) * static_cast<std::size_t>(rows);
-  const std::unique_ptr<unsigned char[]> filtered(new unsigned char[all]);
-  const Inflater inflater(libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-  if (!inflater) throw std::bad_alloc();
-  // No place for the size it has: exactly these bytes are demanded.
-  if (libdeflate_zlib_decompress(inflater.get(), deflated.data(), deflated.size(), filtered.get(), all,
-                                 nullptr) != LIBDEFLATE_SUCCESS)
-    return {};
-  cv::Mat image(rows, columns, type);
-  for (int y = 0; y < rows; ++y) {
-    const unsigned char* from = filtered.get() + static_cast<std::size_t>(y) * (row_bytes + 1);
-    if (!undo_png_filter(from, y > 0 ? image.ptr(y - 1) : nullptr, row_bytes, pixel_bytes, image.ptr(y)))
-      return {};
-  }
-  to_native_order(image);
-  return image;
-}
-
-cv::Mat decoded_by_spng(const Bytes& bytes, const PngHeader& header, int type, spng_format format) {
+cv::Mat decoded(const Bytes& bytes, const PngHeader& header, int type, spng_format format) {
   const Spng spng(spng_ctx_new(0), spng_ctx_free);
   if (!spng) throw std::bad_alloc();
   cv::Mat image(static_cast<int>(header.height), static_cast<int>(header.width), type);
-  const bool decoded =
+  const bool whole =
       spng_set_png_buffer(spng.get(), bytes.data(), bytes.size()) == 0 &&
       spng_decode_image(spng.get(), image.data, image.total() * image.elemSize(), format, 0) == 0;
-  return decoded ? image : cv::Mat();
+  return whole ? image : cv::Mat();
 }
 
 }  // namespace
@@ -83,13 +36,12 @@ cv::Mat png_pixels(const Bytes& bytes, const PngHeader& header) {
   const bool gray = header.color == PngHeader::Color::gray, rgb = header.color == PngHeader::Color::rgb;
   if ((!gray && !rgb) || header.bit_depth < 8) return {};
   const int type = CV_MAKETYPE(header.bit_depth == 16 ? CV_16U : CV_8U, gray ? 1 : 3);
-  return header.interlaced ? decoded_by_spng(bytes, header, type, SPNG_FMT_PNG)
-                           : inflated_pixels(deflated_pixels(bytes), header, type);
+  return decoded(bytes, header, type, SPNG_FMT_PNG);
 }
 
 cv::Mat png_rgba(const Bytes& bytes, const PngHeader& header) {
-  return header.bit_depth == 16 ? decoded_by_spng(bytes, header, CV_16UC4, SPNG_FMT_RGBA16)
-                                : decoded_by_spng(bytes, header, CV_8UC4, SPNG_FMT_RGBA8);
+  return header.bit_depth == 16 ? decoded(bytes, header, CV_16UC4, SPNG_FMT_RGBA16)
+                                : decoded(bytes, header, CV_8UC4, SPNG_FMT_RGBA8);
 }
 
 Bytes png_bytes(const cv::Mat& image) {

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Rakelight authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Between PNG's bytes and pixels. What a scan stores (grey or RGB, row by row) is inflated at once by libdeflate and its
-// filters undone by vector instructions, about twice as fast as libpng does; libspng decodes every other kind, and encodes.
+// Between PNG's bytes and pixels, by libspng.
 #pragma once
 
 #include <opencv2/core.hpp>

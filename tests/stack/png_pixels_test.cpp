@@ -9,7 +9,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "stack/png_filters.h"
 #include "tests/support/small_stack.h"
 
 namespace rakelight {
@@ -66,41 +65,6 @@ TEST_P(PngPixels, of_a_part_of_a_larger_image_are_encoded_alone) {
 INSTANTIATE_TEST_SUITE_P(EveryKind, PngPixels,
                          testing::Combine(testing::Values(CV_8UC1, CV_16UC1, CV_8UC3, CV_16UC3),
                                           testing::Values(2, 3, 31, 64)));
-
-/// Filter by the definition: what each byte predicts, PNG section 9.
-Bytes filtered(const Bytes& row, const Bytes& above, int filter, std::size_t pixel) {
-  Bytes result{static_cast<unsigned char>(filter)};
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    const int a = k >= pixel ? row[k - pixel] : 0, b = above.empty() ? 0 : above[k],
-              c = k >= pixel && !above.empty() ? above[k - pixel] : 0;
-    const int p = a + b - c, pa = std::abs(p - a), pb = std::abs(p - b), pc = std::abs(p - c);
-    const int paeth = pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
-    const int prediction[] = {0, a, b, (a + b) / 2, paeth};
-    result.push_back(static_cast<unsigned char>(row[k] - prediction[filter]));
-  }
-  return result;
-}
-
-TEST(PngFilters, are_undone_for_every_pixel_size_and_on_the_first_row) {
-  cv::RNG random(3);
-  for (const std::size_t pixel : std::initializer_list<std::size_t>{1, 2, 3, 6}) {
-    for (const std::size_t pixels : std::initializer_list<std::size_t>{1, 2, 3, 5, 40}) {
-      Bytes row(pixel * pixels), above(row.size()), undone(row.size());
-      for (Bytes* each : {&row, &above})
-        for (unsigned char& value : *each) value = static_cast<unsigned char>(random.uniform(0, 256));
-      for (int filter = 0; filter < 5; ++filter) {
-        for (const Bytes& before : {above, Bytes()}) {
-          const Bytes from = filtered(row, before, filter, pixel);
-          ASSERT_TRUE(undo_png_filter(from.data(), before.empty() ? nullptr : before.data(), row.size(),
-                                      static_cast<int>(pixel), undone.data()));
-          EXPECT_EQ(undone, row) << "filter " << filter << ", " << pixel << " bytes a pixel";
-        }
-      }
-      EXPECT_FALSE(undo_png_filter(Bytes(row.size() + 1, 5).data(), nullptr, row.size(),
-                                   static_cast<int>(pixel), undone.data()));
-    }
-  }
-}
 
 TEST(PngRgba, reads_grey_and_colour_of_8_and_16_bits) {
   for (const int type : {CV_8UC1, CV_16UC1, CV_8UC3, CV_16UC3}) {
