@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "refine/pixel_blocks.h"
-#include "refine/steps/robust_weights.h"
 
 namespace rakelight {
 
@@ -17,7 +16,6 @@ SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& op
   state.albedo = Eigen::Matrix3Xf::Ones(3, problem.grid.size());
   state.harmonics = options.lamps.harmonics;
   state.attached_shadows = options.trust.attached_shadows && options.lamps.harmonics == 1;
-  state.weight = usable_weights(problem.images);
   return state;
 }
 

@@ -100,6 +100,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
                           ? make_cholesky_depth_solver(problem.grid, problem.prior.cells)
                           : make_multigrid_depth_solver(problem.grid, problem.prior.cells, kStepTolerance);
   const double model_error = options.trust.model_error * median_radiance(images);
+  const bool robust = options.trust.cauchy_scale > 0;
   LampEstimator lamps(options.lamps);
   DepthPrior prior = problem.prior;
   MeasuredNoise noise;
@@ -117,14 +118,16 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     lamps.update(problem, prior, state, t);  // Eq. (26)
     if (t == 1) require_three_directions(images, state, result);
     const Observations& matt = lamps.matt_images(images);
-    state.albedo = estimate_albedo(matt, state);  // Eq. (27)
+    if (robust)
+      state.albedo = estimate_albedo(matt, state);  // Eq. (27)
+    else
+      find_albedo_and_accumulate(matt, state,
+                                 tensors);  // tensors hold rho l and rho phi: the scale between them is free
     normalize_albedo(state);
     report.residual_scale = std::max(residual_scale(matt, state), model_error);
-    if (options.trust.cauchy_scale > 0)
+    if (robust)
       reweigh_and_accumulate(matt, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale,
                              state, tensors);
-    else
-      tensors = accumulate_tensors(matt, state);
 
     noise = measured_errors(problem, state, t, t <= kWarmUp ? model_error : report.residual_scale);
     prior.cell_weight = sensor_weight(options.depth, noise) * problem.prior.cell_weight;

@@ -95,9 +95,11 @@ void set_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& c
 Observations::Observations(int pixel_count, int image_count)
     : pixels(pixel_count),
       images(image_count),
+      pieces_(static_cast<size_t>(pixel_count + kernels::kPiecePixels - 1) / kernels::kPiecePixels),
       codes_(3 * static_cast<size_t>(image_count) * static_cast<size_t>(pixel_count),
              ChannelSamples::kUnusable),
-      encoding_(3 * static_cast<size_t>(image_count)) {}
+      encoding_(3 * static_cast<size_t>(image_count)),
+      whole_(encoding_.size() * pieces_, 0) {}
 
 void Observations::set_channel(int image, int channel, const float* radiance, const unsigned char* usable) {
   constexpr float kSteps = 65534;
@@ -111,6 +113,7 @@ void Observations::set_channel(int image, int channel, const float* radiance, co
   std::uint16_t* codes = codes_.data() + at * static_cast<size_t>(pixels);
   if (!(most >= least)) {
     std::fill_n(codes, pixels, ChannelSamples::kUnusable);
+    note_whole_pieces(at);
     return;
   }
   encoding_[at] = {(most - least) / kSteps, least};
@@ -119,6 +122,19 @@ void Observations::set_channel(int image, int channel, const float* radiance, co
     const auto code =
         static_cast<std::uint16_t>(std::min(kSteps, std::max(0.0f, (radiance[p] - least) * per_step)) + 0.5f);
     codes[p] = usable[p] != 0 ? code : ChannelSamples::kUnusable;
+  }
+  note_whole_pieces(at);
+}
+
+/// @param at of the image and channel
+void Observations::note_whole_pieces(size_t at) {
+  constexpr auto kPiece = static_cast<size_t>(kernels::kPiecePixels);
+  const auto count = static_cast<size_t>(pixels);
+  for (size_t piece = 0; piece < pieces_; ++piece) {
+    const std::uint16_t* codes = codes_.data() + at * count + piece * kPiece;
+    whole_[at * pieces_ + piece] =
+        (piece + 1) * kPiece <= count &&
+        std::find(codes, codes + kPiece, ChannelSamples::kUnusable) == codes + kPiece;
   }
 }
 
@@ -164,6 +180,7 @@ void Observations::copy_channel(const Observations& from, int from_image, int im
   std::copy_n(from.codes_.data() + source * static_cast<size_t>(pixels), pixels,
               codes_.data() + at * static_cast<size_t>(pixels));
   encoding_[at] = from.encoding_[source];
+  note_whole_pieces(at);
 }
 
 Observations observe(const LightStack& stack, const PixelGrid& grid, const FrameVisitor& visit_or_not) {

@@ -68,6 +68,13 @@ class Observations {
     return {codes_.data() + at * static_cast<size_t>(pixels), encoding_[at].step, encoding_[at].least};
   }
 
+  /// Whether every channel of the image's samples [piece, piece + 1) * kernels::kPiecePixels can be used. False of a piece that the
+  /// pixels end in.
+  bool whole(int image, int piece) const {
+    const auto at = static_cast<size_t>(image) * 3 * pieces_ + static_cast<size_t>(piece);
+    return whole_[at] && whole_[at + pieces_] && whole_[at + 2 * pieces_];
+  }
+
   bool usable(int image, int c, int pixel) const { return channel(image, c).usable(pixel); }
 
   Eigen::Vector3f radiance_at(int image, int pixel) const {
@@ -94,8 +101,12 @@ class Observations {
     float step = 0, least = 0;
   };
 
+  void note_whole_pieces(size_t at);
+
+  size_t pieces_ = 0;
   std::vector<std::uint16_t> codes_;  ///< [image][channel][pixel]
   std::vector<Encoding> encoding_;    ///< [image][channel]
+  std::vector<unsigned char> whole_;  ///< [image][channel][piece] 1 where every sample can be used
 };
 
 /// Called with the position in LightStack::frames of a frame that has colour, and the frame, decoded; from several threads.

@@ -106,12 +106,6 @@ double sensor_weight(const DepthOptions& options, const ShadingErrors& errors) {
   return options.noise_ratio * ratio * ratio;
 }
 
-/// The three channels of a white-lit image say the same thing: together they count once.
-std::vector<float> thirds(std::vector<float> weights) {
-  for (float& w : weights) w /= 3;
-  return weights;
-}
-
 /// How far apart the lights of the three channels are: the least singular value of their directions over the largest.
 /// Three in different places are needed to tell a normal from three channels; of one white lamp it is below 0.01.
 double lamp_spread(const SurfaceState& state) {
@@ -228,7 +222,8 @@ MethodResult refine_by_shading(const RefineProblem& problem, const RefineOptions
     const double weight = sensor_weight(options.depth, errors);
     prior.cell_weight = weight * problem.prior.cell_weight;
     prior.floor = problem.prior.floor * weight / kFloorPer;  // an absolute one would make the exposure count
-    if (light == ImageLight::white) white.weight = thirds(white.weight);
+    if (light == ImageLight::white)  // its three channels say the same thing: together they count once
+      white.weight.assign(static_cast<size_t>(white_image.pixels), 1.0f / 3);
     const auto tensors = accumulate_tensors(white_image, white);
     const auto weights =
         corner_weights(grid, problem.corners, tensors, state.zeta, options.trust.edge_weight);

@@ -20,7 +20,15 @@ struct SurfaceState {
   LampScene scene;
   bool attached_shadows = true;  ///< shading is max(0, l.n) + phi instead of l.n + phi
   int harmonics = 1;             ///< order of the far lamps' spherical harmonics, 1 or 2
-  std::vector<float> weight;     ///< [image][pixel] trust in a sample, 0 to 1; 0 where it cannot be used
+  /// [image][pixel] trust in a sample, 0 to 1; 0 where it cannot be used. Empty: every sample that can be used counts fully.
+  std::vector<float> weight;
+
+  /// Trust in a sample that can be used.
+  float trust(int image, int pixel) const {
+    return weight.empty() ? 1.0f
+                          : weight[static_cast<size_t>(image) * static_cast<size_t>(zeta.size()) +
+                                   static_cast<size_t>(pixel)];
+  }
 };
 
 /// Shading max(0, l.n) + phi (or l.n + phi) of each channel.

@@ -3,19 +3,49 @@
 #include "refine/tiles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "refine/kernels/image_kernels.h"
+#include "refine/kernels/plain_kernels.h"
 
 namespace rakelight {
 namespace {
 
+using kernels::kPiecePixels;
 using kernels::kTilePixels;
 
 /// Columns [begin, begin + count) of a 3 x pixels matrix as planar rows; the rest repeats the last column.
 void copy_planar(const Eigen::Matrix3Xf& from, int begin, int count, kernels::TileRow (&rows)[3]) {
   kernels::deinterleave3(from.data() + 3 * static_cast<std::ptrdiff_t>(begin), count, rows);
   for (int c = 0; c < 3; ++c) std::fill(rows[c].at + count, rows[c].at + kTilePixels, rows[c].at[count - 1]);
+}
+
+/// Weights of samples without weights.
+const kernels::TileRow kFullTrust = [] {
+  kernels::TileRow row;
+  std::fill(std::begin(row.at), std::end(row.at), 1.0f);
+  return row;
+}();
+
+struct NormalBounds {
+  float least[3], most[3];
+};
+
+/// Whether no normal within the bounds can lie in the attached shadow of a far lamp of the first order, rounding included.
+bool surely_lit(const kernels::TileLamp& lamp, const NormalBounds& normals) {
+  constexpr float kRounding = 1e-6f;
+  if (lamp.kind != kernels::LightKind::far) return false;
+  for (const float(&l)[3] : lamp.l) {
+    float lowest = 0, size = 0;
+    for (int k = 0; k < 3; ++k) {
+      lowest += std::min(l[k] * normals.least[k], l[k] * normals.most[k]);
+      size += std::abs(l[k]);
+    }
+    if (!(lowest > lamp.least + kRounding * size)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -50,37 +80,94 @@ Tile::Tile(const Observations& images, const SurfaceState& state)
     : images_(images),
       state_(state),
       any_near_(
-          std::any_of(state.lamps.begin(), state.lamps.end(), [](const Lamp& lamp) { return lamp.near; })) {}
+          std::any_of(state.lamps.begin(), state.lamps.end(), [](const Lamp& lamp) { return lamp.near; })),
+      every_image_(static_cast<size_t>(images.images)),
+      tile_images_(every_image_.size()) {
+  std::iota(every_image_.begin(), every_image_.end(), 0);
+  for (int i = 0; i < images_.images; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const ChannelSamples samples = images_.channel(i, c);
+      tile_images_[static_cast<size_t>(i)].step[c] = samples.step();
+      tile_images_[static_cast<size_t>(i)].least[c] = samples.least();
+    }
+  }
+}
 
 void Tile::move_to(int begin, int count) {
   begin_ = begin;
   count_ = count;
   copy_planar(state_.normals, begin, count, surface_.normal);
   copy_planar(state_.albedo, begin, count, surface_.albedo);
-  if (!any_near_) return;
-  copy_planar(state_.points, begin, count, surface_.offset);
-  for (int k = 0; k < 3; ++k)
-    for (float& value : surface_.offset[k].at) value -= state_.scene.center[k];
+  if (any_near_) {
+    copy_planar(state_.points, begin, count, surface_.offset);
+    for (int k = 0; k < 3; ++k)
+      for (float& value : surface_.offset[k].at) value -= state_.scene.center[k];
+  }
+  for (int i = 0; i < images_.images; ++i) {
+    kernels::TileImage& image = tile_images_[static_cast<size_t>(i)];
+    for (int c = 0; c < 3; ++c) image.codes[c] = images_.channel(i, c).codes() + begin_;
+    image.weight = state_.weight.empty()
+                       ? kFullTrust.at
+                       : state_.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images_.pixels) +
+                             static_cast<size_t>(begin_);
+  }
+  if (count_ < kTilePixels) fill_up();
 }
 
-const kernels::TileImage& Tile::image(int i) {
-  for (int c = 0; c < 3; ++c) {
-    const ChannelSamples samples = images_.channel(i, c);
-    image_.codes[c] = samples.codes() + begin_;
-    image_.step[c] = samples.step();
-    image_.least[c] = samples.least();
+/// The last tile has kTilePixels like the others: those behind the last pixel cannot be used.
+void Tile::fill_up() {
+  const auto row = static_cast<size_t>(kTilePixels);
+  codes_.resize(3 * row * tile_images_.size());
+  weights_.resize(tile_images_.size());
+  std::uint16_t* codes = codes_.data();
+  for (size_t i = 0; i < tile_images_.size(); ++i) {
+    kernels::TileImage& image = tile_images_[i];
+    for (int c = 0; c < 3; ++c, codes += kTilePixels) {
+      std::fill(std::copy_n(image.codes[c], count_, codes), codes + kTilePixels,
+                kernels::TileImage::kUnusable);
+      image.codes[c] = codes;
+    }
+    std::fill(std::copy_n(image.weight, count_, weights_[i].at), std::end(weights_[i].at), 0.0f);
+    image.weight = weights_[i].at;
   }
-  image_.weight = state_.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images_.pixels) +
-                  static_cast<size_t>(begin_);
-  if (count_ == kTilePixels) return image_;
-  for (int c = 0; c < 3; ++c) {
-    std::fill(std::copy_n(image_.codes[c], count_, codes_[c]), std::end(codes_[c]),
-              kernels::TileImage::kUnusable);
-    image_.codes[c] = codes_[c];
+}
+
+void Tile::store_albedo(Eigen::Matrix3Xf& albedo) const {
+  kernels::interleave3(surface_.albedo, count_, albedo.data() + 3 * static_cast<std::ptrdiff_t>(begin_));
+}
+
+kernels::ImageChoice Tile::all(const std::vector<kernels::TileLamp>& lamps) const {
+  return chosen(lamps, *this, every_image_);
+}
+
+/// Whether each image is plain in a piece.
+void Tile::find_plain(const std::vector<kernels::TileLamp>& lamps, int piece,
+                      std::vector<char>& plain) const {
+  NormalBounds normals;
+  kernels::normal_bounds(surface_, piece * kPiecePixels, normals.least, normals.most);
+  const int of_all = begin_ / kPiecePixels + piece;
+  for (size_t i = 0; i < lamps.size(); ++i)
+    plain[i] = images_.whole(static_cast<int>(i), of_all) && surely_lit(lamps[i], normals);
+}
+
+const std::vector<TileStretch>& Tile::stretches(const std::vector<kernels::TileLamp>& lamps) {
+  stretches_.clear();
+  const int pieces = (count_ + kPiecePixels - 1) / kPiecePixels;
+  const bool weighted = !state_.weight.empty();
+  std::vector<char> plain(lamps.size(), 0), before;
+  for (int piece = 0; piece < pieces; ++piece) {
+    if (!weighted) find_plain(lamps, piece, plain);
+    if (piece == 0 || plain != before) {
+      TileStretch next;
+      next.pixels.begin = piece * kPiecePixels;
+      for (size_t i = 0; i < plain.size(); ++i)
+        (plain[i] ? next.plain : next.others).push_back(static_cast<int>(i));
+      stretches_.push_back(std::move(next));
+      before = plain;
+    }
+    stretches_.back().pixels.end = (piece + 1) * kPiecePixels;
   }
-  std::fill(std::copy_n(image_.weight, count_, weight_.at), std::end(weight_.at), 0.0f);
-  image_.weight = weight_.at;
-  return image_;
+  return stretches_;
 }
 
 }  // namespace rakelight

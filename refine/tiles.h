@@ -5,6 +5,8 @@
 // planar rows once for all images; images and weights are read where they lie, except in the last tile, which is filled up.
 #pragma once
 
+#include <vector>
+
 #include "refine/kernels/tile.h"
 #include "refine/observations.h"
 #include "refine/pixel_blocks.h"
@@ -18,31 +20,57 @@ kernels::TileLamp tile_lamp(const Lamp& lamp, const SurfaceState& state);
 /// All lamps of the state.
 std::vector<kernels::TileLamp> tile_lamps(const SurfaceState& state);
 
+/// Part of a tile in which the same images are plain (refine/kernels/plain_kernels.h).
+struct TileStretch {
+  kernels::Stretch pixels;
+  std::vector<int> plain, others;  ///< images
+};
+
 /// Pixels [begin, begin + count) of a state and its images.
 class Tile {
  public:
   Tile(const Observations& images, const SurfaceState& state);
 
-  /// @param count at most kernels::kTilePixels
+  /// @param begin a multiple of kernels::kTilePixels  @param count at most kernels::kTilePixels
   void move_to(int begin, int count);
 
   int begin() const { return begin_; }
   int count() const { return count_; }
   kernels::TileSurface& surface() { return surface_; }
 
-  /// Samples of image i with the state's weights, until the next call.
-  const kernels::TileImage& image(int i);
+  /// Copies the surface's albedo into all pixels', 3 x pixels.
+  void store_albedo(Eigen::Matrix3Xf& albedo) const;
+
+  /// [image] Samples with the state's weights, until the next move.
+  const kernels::TileImage* images() const { return tile_images_.data(); }
+  const kernels::TileImage& image(int i) const { return tile_images_[static_cast<size_t>(i)]; }
+
+  /// The tile from its first pixel to its last, each stretch as long as can be, until the next call. @param lamps [image]
+  const std::vector<TileStretch>& stretches(const std::vector<kernels::TileLamp>& lamps);
+
+  /// All images.
+  kernels::ImageChoice all(const std::vector<kernels::TileLamp>& lamps) const;
 
  private:
+  void fill_up();
+  void find_plain(const std::vector<kernels::TileLamp>& lamps, int piece, std::vector<char>& plain) const;
+
   const Observations& images_;
   const SurfaceState& state_;
   bool any_near_;  ///< only near lamps ask where the pixels are
   int begin_ = 0, count_ = 0;
   kernels::TileSurface surface_;
-  kernels::TileImage image_;
-  std::uint16_t codes_[3][kernels::kTilePixels];  ///< the filled-up samples of the last tile
-  kernels::TileRow weight_;
+  std::vector<int> every_image_;
+  std::vector<kernels::TileImage> tile_images_;
+  std::vector<std::uint16_t> codes_;       ///< [image][channel] the filled-up samples of the last tile
+  std::vector<kernels::TileRow> weights_;  ///< [image] and its weights
+  std::vector<TileStretch> stretches_;
 };
+
+inline kernels::ImageChoice chosen(const std::vector<kernels::TileLamp>& lamps, const Tile& tile,
+                                   const std::vector<int>& which) {
+  return {lamps.data(), tile.images(), which.data(), static_cast<int>(which.size())};
+}
 
 /// Calls body(tile) for every tile, in parallel; tiles do not depend on the number of threads.
 template <class Body>

@@ -18,10 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace rakelight::kernels {
 namespace HWY_NAMESPACE {
-HWY_INLINE Vector3 load3(const TileRow (&rows)[3], int k) {
-  const D d;
-  return {hn::Load(d, rows[0].at + k), hn::Load(d, rows[1].at + k), hn::Load(d, rows[2].at + k)};
-}
 
 /// Radiance of one channel at a vector of pixels, and which of them can be used.
 struct Samples {
@@ -49,6 +45,7 @@ class Light<LightKind::far> {
   Vector3 l(int c) const { return set3(lamp_.l[c]); }
   V phi(int c) const { return hn::Set(D(), lamp_.phi[c]); }
   V incidence(int c) const { return dot(l(c), n_); }
+  V least() const { return hn::Set(D(), lamp_.least); }
 
  private:
   const TileLamp& lamp_;
@@ -84,6 +81,7 @@ class Light<LightKind::near> {
   V phi(int c) const { return hn::Set(D(), lamp_.phi[c]); }
   V incidence() const { return incidence_; }
   V incidence(int c) const { return hn::Mul(strength(c), incidence_); }
+  V least() const { return hn::Set(D(), lamp_.least); }
 
  private:
   const TileLamp& lamp_;
@@ -115,6 +113,7 @@ class Light<LightKind::second_order> {
   Vector3 l(int c) const { return l_[c]; }
   V phi(int c) const { return phi_[c]; }
   V incidence(int c) const { return dot(l_[c], n_); }
+  V least() const { return hn::Set(D(), lamp_.least); }
 
  private:
   const TileLamp& lamp_;
@@ -125,8 +124,8 @@ class Light<LightKind::second_order> {
 
 /// Shading of channel c.
 template <LightKind kKind>
-HWY_INLINE V shading(const Light<kKind>& light, int c, V least) {
-  return hn::Add(hn::Max(least, light.incidence(c)), light.phi(c));
+HWY_INLINE V shading(const Light<kKind>& light, int c) {
+  return hn::Add(hn::Max(light.least(), light.incidence(c)), light.phi(c));
 }
 
 /// Calls body(Light<kind>) for the lamp's kind.
@@ -139,6 +138,15 @@ HWY_INLINE void with_light(const TileLamp& lamp, const Body& body) {
       return body(Light<LightKind::near>(lamp));
     case LightKind::second_order:
       return body(Light<LightKind::second_order>(lamp));
+  }
+}
+
+/// Calls body(Light<kind>, image, which) for the images chosen.
+template <class Body>
+HWY_INLINE void for_each_image(const ImageChoice& choice, const Body& body) {
+  for (int j = 0; j < choice.count; ++j) {
+    const int i = choice.which[j];
+    with_light(choice.lamps[i], [&](auto light) { body(light, choice.images[i], i); });
   }
 }
 

@@ -13,20 +13,19 @@ HWY_BEFORE_NAMESPACE();
 namespace rakelight::kernels {
 namespace HWY_NAMESPACE {
 
-/// Of one channel; `shadowed`: pixels with l.n <= 0 have no say in l.
+/// Of one channel; pixels with l.n <= least have no say in l.
 void light_sums_of_channel(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int c,
-                           int count, float (&A)[10], float (&b)[4]) {
+                           Stretch stretch, float (&A)[10], float (&b)[4]) {
   const D d;
   const Vector3 l = set3(lamp.l[c]);
   const V least = hn::Set(d, lamp.least);
   V a[10], r[4];
   for (V& each : a) each = hn::Zero(d);
   for (V& each : r) each = hn::Zero(d);
-  for (int k = 0; k < count; k += lanes()) {
+  for (int k = stretch.begin; k < stretch.end; k += lanes()) {
     Vector3 n = load3(surface.normal, k);
-    const auto inside = hn::FirstN(d, static_cast<size_t>(count - k));
     const Samples samples(image, c, k);
-    const V trust = hn::IfThenElseZero(hn::And(inside, samples.usable), hn::LoadU(d, image.weight + k));
+    const V trust = hn::IfThenElseZero(samples.usable, hn::LoadU(d, image.weight + k));
     const V rho = hn::Load(d, surface.albedo[c].at + k);
     const V wr = hn::Mul(trust, rho), wrr = hn::Mul(wr, rho);
     const auto lit = hn::Gt(dot(l, n), least);
@@ -52,9 +51,9 @@ void light_sums_of_channel(const TileSurface& surface, const TileLamp& lamp, con
   for (int j = 0; j < 4; ++j) b[j] = hn::GetLane(hn::SumOfLanes(d, r[j]));
 }
 
-void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int count,
+void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, Stretch stretch,
                 LightSums& sums) {
-  for (int c = 0; c < 3; ++c) light_sums_of_channel(surface, lamp, image, c, count, sums.A[c], sums.b[c]);
+  for (int c = 0; c < 3; ++c) light_sums_of_channel(surface, lamp, image, c, stretch, sums.A[c], sums.b[c]);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -65,9 +64,9 @@ HWY_AFTER_NAMESPACE();
 namespace rakelight::kernels {
 HWY_EXPORT(light_sums);
 
-void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, int count,
+void light_sums(const TileSurface& surface, const TileLamp& lamp, const TileImage& image, Stretch stretch,
                 LightSums& sums) {
-  HWY_DYNAMIC_DISPATCH(light_sums)(surface, lamp, image, count, sums);
+  HWY_DYNAMIC_DISPATCH(light_sums)(surface, lamp, image, stretch, sums);
 }
 
 }  // namespace rakelight::kernels

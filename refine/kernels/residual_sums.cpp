@@ -47,7 +47,7 @@ void add_residual_draws(const TileSurface& surface, const TileLamp& lamp, const 
       for (int c = 0; c < 3; ++c) {
         const Samples samples(image, c, k);
         const V rho = hn::Load(d, surface.albedo[c].at + k),
-                S = hn::IfThenElseZero(samples.usable, shading(light, c, least)),
+                S = hn::IfThenElseZero(samples.usable, shading(light, c)),
                 I = hn::IfThenElseZero(samples.usable, samples.radiance), rho_S = hn::Mul(rho, S),
                 r = hn::Sub(I, rho_S), wS = hn::Mul(weight, S);
         const V lit = hn::IfThenElseZero(hn::And(samples.usable, hn::Gt(light.incidence(c), least)), weight);
@@ -78,7 +78,10 @@ void add_lit_weights(const TileSurface& surface, const TileLamp& lamp, const Til
       const V most = hn::Max(light.incidence(0), hn::Max(light.incidence(1), light.incidence(2)));
       // Second-order light has no shadow's edge: it comes from everywhere.
       const V least = hn::Set(d, lamp.kind == LightKind::second_order ? -1e30f : 0.0f);
-      const V weight = hn::IfThenElseZero(hn::Gt(most, least), hn::LoadU(d, image.weight + k));
+      const auto seen = hn::Or(Samples(image, 0, k).usable,
+                               hn::Or(Samples(image, 1, k).usable, Samples(image, 2, k).usable));
+      const V weight =
+          hn::IfThenElseZero(hn::And(seen, hn::Gt(most, least)), hn::LoadU(d, image.weight + k));
       hn::Store(hn::Add(weight, hn::Load(d, lit.at + k)), d, lit.at + k);
     }
   });

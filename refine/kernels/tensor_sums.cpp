@@ -17,9 +17,6 @@ namespace HWY_NAMESPACE {
 struct Sums {
   V xx, xy, xz, yy, yz, zz, hx, hy, hz, e0;
 
-  explicit Sums(D d)
-      : xx(hn::Zero(d)), xy(xx), xz(xx), yy(xx), yz(xx), zz(xx), hx(xx), hy(xx), hz(xx), e0(xx) {}
-
   /// w (l . n - rest)^2 without the square of rest: G += w l l', h += wrest l.
   HWY_INLINE void add(const Vector3& l, V w, V wrest) {
     const Vector3 wl = scaled(l, w);
@@ -33,68 +30,116 @@ struct Sums {
     hy = hn::MulAdd(wrest, l.y, hy);
     hz = hn::MulAdd(wrest, l.z, hz);
   }
+};
 
-  HWY_INLINE void add_to(TileTensors& tile, int k) const {
+HWY_INLINE Sums load_sums(const TileTensors& tile, int k) {
+  const D d;
+  const auto at = [&](const TileRow& row) { return hn::Load(d, row.at + k); };
+  return {at(tile.xx), at(tile.xy), at(tile.xz), at(tile.yy), at(tile.yz),
+          at(tile.zz), at(tile.hx), at(tile.hy), at(tile.hz), at(tile.e0)};
+}
+
+HWY_INLINE void store_sums(const Sums& sums, TileTensors& tile, int k) {
+  const D d;
+  const auto store = [&](V value, TileRow& row) { hn::Store(value, d, row.at + k); };
+  store(sums.xx, tile.xx);
+  store(sums.xy, tile.xy);
+  store(sums.xz, tile.xz);
+  store(sums.yy, tile.yy);
+  store(sums.yz, tile.yz);
+  store(sums.zz, tile.zz);
+  store(sums.hx, tile.hx);
+  store(sums.hy, tile.hy);
+  store(sums.hz, tile.hz);
+  store(sums.e0, tile.e0);
+}
+
+/// A sample's channels: rho and I - rho phi, 0 where the channel cannot be used.
+struct Rests {
+  V rho[3], rest[3], used[3];
+
+  template <LightKind kKind>
+  HWY_INLINE Rests(const Light<kKind>& light, const V (&albedo)[3], const TileImage& image, int k) {
     const D d;
-    const auto add_row = [&](V value, TileRow& row) {
-      hn::Store(hn::Add(value, hn::Load(d, row.at + k)), d, row.at + k);
-    };
-    add_row(xx, tile.xx);
-    add_row(xy, tile.xy);
-    add_row(xz, tile.xz);
-    add_row(yy, tile.yy);
-    add_row(yz, tile.yz);
-    add_row(zz, tile.zz);
-    add_row(hx, tile.hx);
-    add_row(hy, tile.hy);
-    add_row(hz, tile.hz);
-    add_row(e0, tile.e0);
+    for (int c = 0; c < 3; ++c) {
+      const Samples samples(image, c, k);
+      rho[c] = hn::IfThenElseZero(samples.usable, albedo[c]);
+      rest[c] = hn::NegMulAdd(rho[c], light.phi(c), hn::IfThenElseZero(samples.usable, samples.radiance));
+      used[c] = hn::IfThenElseZero(samples.usable, hn::Set(d, 1.0f));
+    }
   }
 };
 
 /// A near lamp's channels share one vector v: G += w sum (rho e)^2 v v'.
-HWY_INLINE void add_channels(const Light<LightKind::near>& light, const V (&rho)[3], const V (&rest)[3],
-                             V weight, V least, Sums& sums) {
+HWY_INLINE void add_channels(const Light<LightKind::near>& light, const Rests& of, V weight, Sums& sums) {
   const D d;
   V strength2 = hn::Zero(d), strength_rest = strength2;
   for (int c = 0; c < 3; ++c) {
-    const V strength = hn::Mul(rho[c], light.strength(c));
+    sums.e0 = hn::MulAdd(hn::Mul(weight, of.rest[c]), of.rest[c], sums.e0);
+    const V strength = hn::Mul(of.rho[c], light.strength(c));
     strength2 = hn::MulAdd(strength, strength, strength2);
-    strength_rest = hn::MulAdd(strength, rest[c], strength_rest);
+    strength_rest = hn::MulAdd(strength, of.rest[c], strength_rest);
   }
-  weight = hn::IfThenElseZero(hn::Gt(light.incidence(), least), weight);
+  weight = hn::IfThenElseZero(hn::Gt(light.incidence(), light.least()), weight);
   sums.add(light.v(), hn::Mul(weight, strength2), hn::Mul(weight, strength_rest));
 }
 
 template <LightKind kKind>
-HWY_INLINE void add_channels(const Light<kKind>& light, const V (&rho)[3], const V (&rest)[3], V weight,
-                             V least, Sums& sums) {
+HWY_INLINE void add_channels(const Light<kKind>& light, const Rests& of, V weight, Sums& sums) {
   for (int c = 0; c < 3; ++c) {
-    const V lit = hn::IfThenElseZero(hn::Gt(light.incidence(c), least), hn::Mul(weight, rho[c]));
-    sums.add(light.l(c), hn::Mul(lit, rho[c]), hn::Mul(lit, rest[c]));
+    sums.e0 = hn::MulAdd(hn::Mul(weight, of.rest[c]), of.rest[c], sums.e0);
+    const V lit = hn::IfThenElseZero(hn::Gt(light.incidence(c), light.least()), hn::Mul(weight, of.rho[c]));
+    sums.add(light.l(c), hn::Mul(lit, of.rho[c]), hn::Mul(lit, of.rest[c]));
   }
 }
 
-void add_tensors(const TileSurface& surface, const TileLamp& lamp, const TileImage& image,
-                 TileTensors& tile) {
-  with_light(lamp, [&](auto light) {
-    const D d;
-    const V least = hn::Set(d, lamp.least);
-    for (int k = 0; k < kTilePixels; k += lanes()) {
-      light.move_to(surface, k, load3(surface.normal, k));
-      const V weight = hn::LoadU(d, image.weight + k);
-      Sums sums(d);
-      V rho[3], rest[3];
-      for (int c = 0; c < 3; ++c) {
-        const Samples samples(image, c, k);
-        rho[c] = hn::IfThenElseZero(samples.usable, hn::Load(d, surface.albedo[c].at + k));
-        rest[c] = hn::NegMulAdd(rho[c], light.phi(c), hn::IfThenElseZero(samples.usable, samples.radiance));
-        sums.e0 = hn::MulAdd(hn::Mul(weight, rest[c]), rest[c], sums.e0);
-      }
-      add_channels(light, rho, rest, weight, least, sums);
-      sums.add_to(tile, k);
-    }
-  });
+template <LightKind kKind>
+HWY_INLINE V cauchy_weight(const Light<kKind>& light, const Rests& of, V inverse_square) {
+  const D d;
+  V squares = hn::Zero(d), channels = squares;
+  for (int c = 0; c < 3; ++c) {
+    const V r = hn::MulSub(of.rho[c], hn::Max(light.least(), light.incidence(c)), of.rest[c]);
+    squares = hn::MulAdd(r, r, squares);
+    channels = hn::Add(channels, of.used[c]);
+  }
+  return hn::Div(channels, hn::MulAdd(squares, inverse_square, hn::Max(channels, hn::Set(d, 1.0f))));
+}
+
+/// @param weight weight(light, rests, image, which, k)
+template <class Weight>
+HWY_INLINE void add_images(const TileSurface& surface, const ImageChoice& choice, Stretch stretch,
+                           const Weight& weight, TileTensors& tile) {
+  const D d;
+  for (int k = stretch.begin; k < stretch.end; k += lanes()) {
+    const Vector3 n = load3(surface.normal, k);
+    const V albedo[3] = {hn::Load(d, surface.albedo[0].at + k), hn::Load(d, surface.albedo[1].at + k),
+                         hn::Load(d, surface.albedo[2].at + k)};
+    Sums sums = load_sums(tile, k);
+    for_each_image(choice, [&](auto light, const TileImage& image, int which) {
+      light.move_to(surface, k, n);
+      const Rests rests(light, albedo, image, k);
+      add_channels(light, rests, weight(light, rests, image, which, k), sums);
+    });
+    store_sums(sums, tile, k);
+  }
+}
+
+void add_tensors(const TileSurface& surface, const ImageChoice& choice, Stretch stretch, TileTensors& sums) {
+  const auto given = [](const auto&, const Rests&, const TileImage& image, int, int k) {
+    return hn::LoadU(D(), image.weight + k);
+  };
+  add_images(surface, choice, stretch, given, sums);
+}
+
+void reweigh_and_add_tensors(const TileSurface& surface, const ImageChoice& choice, float scale,
+                             Stretch stretch, float* const* weights, TileTensors& sums) {
+  const V inverse_square = hn::Set(D(), 1.0f / (scale * scale));
+  const auto made = [&](const auto& light, const Rests& rests, const TileImage&, int which, int k) {
+    const V weight = cauchy_weight(light, rests, inverse_square);
+    hn::StoreU(weight, D(), weights[which] + k);
+    return weight;
+  };
+  add_images(surface, choice, stretch, made, sums);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -105,9 +150,15 @@ HWY_AFTER_NAMESPACE();
 namespace rakelight::kernels {
 HWY_EXPORT(add_tensors);
 
-void add_tensors(const TileSurface& surface, const TileLamp& lamp, const TileImage& image,
-                 TileTensors& tile) {
-  HWY_DYNAMIC_DISPATCH(add_tensors)(surface, lamp, image, tile);
+void add_tensors(const TileSurface& surface, const ImageChoice& choice, Stretch stretch, TileTensors& sums) {
+  HWY_DYNAMIC_DISPATCH(add_tensors)(surface, choice, stretch, sums);
+}
+
+HWY_EXPORT(reweigh_and_add_tensors);
+
+void reweigh_and_add_tensors(const TileSurface& surface, const ImageChoice& choice, float scale,
+                             Stretch stretch, float* const* weights, TileTensors& sums) {
+  HWY_DYNAMIC_DISPATCH(reweigh_and_add_tensors)(surface, choice, scale, stretch, weights, sums);
 }
 
 }  // namespace rakelight::kernels

@@ -13,6 +13,9 @@ namespace rakelight::kernels {
 
 constexpr int kTilePixels = 512;
 
+/// A tile is judged by pieces: which of its images are plain (refine/kernels/plain_kernels.h).
+constexpr int kPiecePixels = 64;
+
 /// One number a pixel of a tile.
 struct alignas(64) TileRow {
   float at[kTilePixels];
@@ -46,6 +49,24 @@ struct TileImage {
   const std::uint16_t* codes[3] = {};  ///< [channel]
   float step[3] = {}, least[3] = {};
   const float* weight = nullptr;  ///< trust in the pixel's sample
+};
+
+/// Pixels [begin, end) of a tile, whole pieces.
+struct Stretch {
+  int begin = 0, end = kTilePixels;
+};
+
+/// Some of a tile's images, and the lamps that made them: lamps[which[k]] made images[which[k]].
+struct ImageChoice {
+  const TileLamp* lamps;
+  const TileImage* images;
+  const int* which;
+  int count;
+};
+
+/// sum w S I and sum w S S a channel.
+struct AlbedoSums {
+  TileRow SI[3], SS[3];
 };
 
 /// e(n) = n' G n - 2 h' n + e0 a pixel (refine/steps/photometric_tensor.h).

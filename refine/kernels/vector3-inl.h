@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "refine/kernels/tile.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace rakelight::kernels {
 namespace HWY_NAMESPACE {
@@ -31,9 +33,14 @@ struct Vector3 {
   V x, y, z;
 };
 
-HWY_INLINE Vector3 set3(const float (&v)[3]) {
+HWY_INLINE Vector3 set3(const float* v) {
   const D d;
   return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
+}
+
+HWY_INLINE Vector3 load3(const TileRow (&rows)[3], int k) {
+  const D d;
+  return {hn::Load(d, rows[0].at + k), hn::Load(d, rows[1].at + k), hn::Load(d, rows[2].at + k)};
 }
 
 HWY_INLINE V dot(const Vector3& a, const Vector3& b) {

@@ -2,21 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/steps/albedo.h"
 
-#include "refine/kernels/image_kernels.h"
-#include "refine/tiles.h"
+#include "refine/image_sums.h"
 
 namespace rakelight {
 
 Eigen::Matrix3Xf estimate_albedo(const Observations& images, const SurfaceState& state) {
-  Eigen::Matrix3Xf albedo = state.albedo;
-  const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
+  Eigen::Matrix3Xf albedo(3, state.albedo.cols());
+  const ImageLamps lamps(images, state);
   for_each_tile(images, state, [&](Tile& tile) {
-    kernels::TileRow SI[3] = {}, SS[3] = {};
-    for (int i = 0; i < images.images; ++i)
-      kernels::add_albedo_sums(tile.surface(), lamps[static_cast<size_t>(i)], tile.image(i), SI, SS);
-    for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < tile.count(); ++k)
-        if (SS[c].at[k] > 1e-8f) albedo(c, tile.begin() + k) = std::max(0.0f, SI[c].at[k] / SS[c].at[k]);
+    ImageSums sums(lamps);
+    for (const TileStretch& stretch : tile.stretches(lamps.lamps)) {
+      sums.add_plain(tile, stretch);
+      sums.find_albedo(tile, stretch);
+    }
+    tile.store_albedo(albedo);
   });
   return albedo;
 }

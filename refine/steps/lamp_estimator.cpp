@@ -143,6 +143,7 @@ void LampEstimator::start_near(const Observations& images, SurfaceState& state) 
   samples_ = sample_lamp_regions(images, state);
   far_state_ = state;
   explanation_ = "near lamps: asked for";
+  if (state.weight.empty()) state.weight = usable_weights(images);  // the fit of near lamps reads them
   for (size_t i = 0; i < state.lamps.size(); ++i) {
     Lamp& lamp = state.lamps[i];
     if (images.colored_lamps[i]) continue;  // three lamps at once have no one position

@@ -4,10 +4,12 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <opencv2/core/utility.hpp>
 
 #include "refine/kernels/image_kernels.h"
+#include "refine/kernels/plain_kernels.h"
 #include "refine/tiles.h"
 
 namespace rakelight {
@@ -40,7 +42,6 @@ LightEquations<9> second_order_equations(const Observations& images, int image, 
                                          const SurfaceState& state) {
   constexpr int N = 9;
   const ChannelSamples radiance = images.channel(image, channel);
-  const float* weight = state.weight.data() + static_cast<size_t>(image) * static_cast<size_t>(images.pixels);
   constexpr Eigen::Index kRun = 256;
   LightEquations<N> sum;
   for (Eigen::Index begin = 0; begin < state.normals.cols(); begin += kRun) {
@@ -50,7 +51,8 @@ LightEquations<9> second_order_equations(const Observations& images, int image, 
     for (Eigen::Index p = begin; p < end; ++p) {
       const Eigen::Matrix<float, N, 1> h = harmonics(state.normals.col(p));
       const float rho = state.albedo(channel, p);
-      const float trust = radiance.usable(static_cast<int>(p)) ? weight[p] : 0.0f;
+      const float trust =
+          radiance.usable(static_cast<int>(p)) ? state.trust(image, static_cast<int>(p)) : 0.0f;
       A.noalias() += (trust * rho * rho) * h * h.transpose();
       b += (trust * rho * radiance[static_cast<int>(p)]) * h;
     }
@@ -77,41 +79,77 @@ void solve_channel(const LightEquations<N>& sum, int channel, Lamp& lamp) {
 /// First order: the equations of every image and channel.
 class FirstOrderSums {
  public:
-  explicit FirstOrderSums(size_t images = 0) : equations_(3 * images) {}
+  explicit FirstOrderSums(size_t images = 0) : sums_(3 * images) {}
 
-  void add(size_t image, const kernels::LightSums& sums) {
+  void add(size_t image, const float (&A)[3][10], const float (&b)[3][4]) {
     for (size_t c = 0; c < 3; ++c) {
-      LightEquations<4>& sum = equations_[3 * image + c];
-      const float* A = sums.A[c];
-      for (Eigen::Index row = 0; row < 4; ++row) {
-        for (Eigen::Index column = row; column < 4; ++column) sum.A(row, column) += static_cast<double>(*A++);
-        sum.b[row] += static_cast<double>(sums.b[c][row]);
-      }
+      Numbers& sum = sums_[3 * image + c];
+      for (size_t k = 0; k < 10; ++k) sum[k] += static_cast<double>(A[c][k]);
+      for (size_t k = 0; k < 4; ++k) sum[10 + k] += static_cast<double>(b[c][k]);
     }
   }
 
   FirstOrderSums& operator+=(const FirstOrderSums& other) {
-    for (size_t k = 0; k < equations_.size(); ++k) {
-      equations_[k].A += other.equations_[k].A;
-      equations_[k].b += other.equations_[k].b;
-    }
+    for (size_t i = 0; i < sums_.size(); ++i)
+      for (size_t k = 0; k < sums_[i].size(); ++k) sums_[i][k] += other.sums_[i][k];
     return *this;
   }
 
   LightEquations<4> of(size_t image, size_t channel) const {
-    LightEquations<4> sum = equations_[3 * image + channel];
-    sum.A = Eigen::Matrix4d(sum.A.selfadjointView<Eigen::Upper>());
-    return sum;
+    const Numbers& sum = sums_[3 * image + channel];
+    LightEquations<4> equations;
+    size_t k = 0;
+    for (Eigen::Index row = 0; row < 4; ++row)
+      for (Eigen::Index column = row; column < 4; ++column)
+        equations.A(row, column) = equations.A(column, row) = sum[k++];
+    for (Eigen::Index row = 0; row < 4; ++row) equations.b[row] = sum[k++];
+    return equations;
   }
 
  private:
-  std::vector<LightEquations<4>> equations_;
+  using Numbers = std::array<double, 14>;  ///< A's upper triangle by rows, then b
+  std::vector<Numbers> sums_;
 };
 
 /// Four unknowns a channel are known to 1e-4 from this many pixels, spread evenly over the surface; more cost time alone.
 constexpr int kEnoughPixels = 1 << 17;
 
-/// @param shadows the lamps whose attached shadows are left out
+/// The lights' sums over a tile.
+class LightsOfTile {
+ public:
+  explicit LightsOfTile(size_t images) : b_(images) {}
+
+  /// @param shadows the lamps whose attached shadows are left out
+  void add(Tile& tile, const std::vector<kernels::TileLamp>& shadows, FirstOrderSums& sums) {
+    for (const TileStretch& stretch : tile.stretches(shadows)) {
+      if (!stretch.plain.empty()) add_plain(tile, shadows, stretch, sums);
+      for (const int i : stretch.others) {
+        const auto at = static_cast<size_t>(i);
+        kernels::LightSums of_image;
+        kernels::light_sums(tile.surface(), shadows[at], tile.images()[i], stretch.pixels, of_image);
+        sums.add(at, of_image.A, of_image.b);
+      }
+    }
+  }
+
+ private:
+  struct Rhs {
+    float of_channel[3][4];
+  };
+
+  void add_plain(Tile& tile, const std::vector<kernels::TileLamp>& shadows, const TileStretch& stretch,
+                 FirstOrderSums& sums) {
+    kernels::plain_lights(tile.surface(), stretch.pixels, shared_);
+    kernels::plain_light_rhs(tile.surface(), shared_, chosen(shadows, tile, stretch.plain), stretch.pixels,
+                             &b_.data()->of_channel);
+    for (const int i : stretch.plain)
+      sums.add(static_cast<size_t>(i), shared_.A, b_[static_cast<size_t>(i)].of_channel);
+  }
+
+  kernels::PlainLights shared_;
+  std::vector<Rhs> b_;  ///< [image]
+};
+
 FirstOrderSums first_order_sums(const Observations& images, const SurfaceState& state,
                                 const std::vector<kernels::TileLamp>& shadows) {
   const FirstOrderSums none(shadows.size());
@@ -119,14 +157,10 @@ FirstOrderSums first_order_sums(const Observations& images, const SurfaceState& 
   return sum_over_blocks(images.pixels, none, [&](int begin, int end) {
     FirstOrderSums sums = none;
     Tile tile(images, state);
+    LightsOfTile of_tile(shadows.size());
     for (int p = begin; p < end; p += step) {
       tile.move_to(p, std::min(kernels::kTilePixels, end - p));
-      for (size_t i = 0; i < shadows.size(); ++i) {
-        kernels::LightSums of_image;
-        kernels::light_sums(tile.surface(), shadows[i], tile.image(static_cast<int>(i)), tile.count(),
-                            of_image);
-        sums.add(i, of_image);
-      }
+      of_tile.add(tile, shadows, sums);
     }
     return sums;
   });

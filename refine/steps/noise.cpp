@@ -29,7 +29,6 @@ std::vector<double> block_residuals(const PixelGrid& grid, const Observations& i
                                     const SurfaceState& state, int image, int block) {
   const int columns = (grid.index.cols + block - 1) / block, rows = (grid.index.rows + block - 1) / block;
   std::vector<WeightedSum> sums(static_cast<size_t>(columns) * static_cast<size_t>(rows));
-  const float* weight = state.weight.data() + static_cast<size_t>(image) * static_cast<size_t>(images.pixels);
   ShadingBlock model;
   for (int begin = 0; begin < images.pixels; begin += kPixelBlock) {
     const int end = std::min(images.pixels, begin + kPixelBlock);
@@ -41,8 +40,9 @@ std::vector<double> block_residuals(const PixelGrid& grid, const Observations& i
           state.albedo.col(p).dot(Eigen::Vector3f(model.S[0][k], model.S[1][k], model.S[2][k]));
       const cv::Point at = grid.pixels[static_cast<size_t>(p)];
       WeightedSum& sum = sums[static_cast<size_t>((at.y / block) * columns + at.x / block)];
-      sum.value += static_cast<double>(weight[p] * (modelled - images.radiance_at(image, p).sum()));
-      sum.weight += static_cast<double>(weight[p] * weight[p]);
+      const float weight = state.trust(image, p);
+      sum.value += static_cast<double>(weight * (modelled - images.radiance_at(image, p).sum()));
+      sum.weight += static_cast<double>(weight * weight);
     }
   }
   std::vector<double> sizes;

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
+#include "refine/image_sums.h"
 #include "refine/kernels/image_kernels.h"
-#include "refine/pixel_blocks.h"
-#include "refine/tiles.h"
 
 namespace rakelight {
 namespace {
@@ -53,33 +52,51 @@ void PhotometricTensors::set(size_t pixel, const PhotometricTensor& tensor) {
 
 void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state,
                             PhotometricTensors& tensors) {
+  const auto pixels = static_cast<size_t>(images.pixels), count = state.lamps.size();
+  state.weight.resize(count * pixels);
   const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
   for_each_tile(images, state, [&](Tile& tile) {
+    const auto weights_of = [&](size_t i) {
+      return state.weight.data() + i * pixels + static_cast<size_t>(tile.begin());
+    };
+    std::vector<kernels::TileRow> last(tile.count() < kernels::kTilePixels ? count : 0);
+    std::vector<float*> weights(count);
+    for (size_t i = 0; i < count; ++i) weights[i] = last.empty() ? weights_of(i) : last[i].at;
     kernels::TileTensors sums{};
-    kernels::TileRow weight;
-    for (size_t i = 0; i < lamps.size(); ++i) {
-      kernels::TileImage image = tile.image(static_cast<int>(i));
-      kernels::cauchy_weight(tile.surface(), lamps[i], image, static_cast<float>(scale), weight);
-      image.weight = weight.at;
-      kernels::add_tensors(tile.surface(), lamps[i], image, sums);
-      std::copy_n(
-          weight.at, tile.count(),
-          state.weight.data() + i * static_cast<size_t>(images.pixels) + static_cast<size_t>(tile.begin()));
-    }
+    kernels::reweigh_and_add_tensors(tile.surface(), tile.all(lamps), static_cast<float>(scale), {},
+                                     weights.data(), sums);
+    for (size_t i = 0; i < last.size(); ++i) std::copy_n(last[i].at, tile.count(), weights_of(i));
     store(sums, tile.begin(), tile.count(), tensors);
   });
 }
 
 PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceState& state) {
   PhotometricTensors tensors(static_cast<size_t>(images.pixels));
-  const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
+  const ImageLamps lamps(images, state);
   for_each_tile(images, state, [&](Tile& tile) {
-    kernels::TileTensors sums{};
-    for (int i = 0; i < images.images; ++i)
-      kernels::add_tensors(tile.surface(), lamps[static_cast<size_t>(i)], tile.image(i), sums);
-    store(sums, tile.begin(), tile.count(), tensors);
+    ImageSums sums(lamps);
+    for (const TileStretch& stretch : tile.stretches(lamps.lamps)) {
+      sums.add_plain(tile, stretch);
+      sums.find_tensors(tile, stretch);
+    }
+    store(sums.tensors(), tile.begin(), tile.count(), tensors);
   });
   return tensors;
+}
+
+void find_albedo_and_accumulate(const Observations& images, SurfaceState& state,
+                                PhotometricTensors& tensors) {
+  const ImageLamps lamps(images, state);
+  for_each_tile(images, state, [&](Tile& tile) {
+    ImageSums sums(lamps);
+    for (const TileStretch& stretch : tile.stretches(lamps.lamps)) {
+      sums.add_plain(tile, stretch);
+      sums.find_albedo(tile, stretch);
+      sums.find_tensors(tile, stretch);
+    }
+    tile.store_albedo(state.albedo);
+    store(sums.tensors(), tile.begin(), tile.count(), tensors);
+  });
 }
 
 }  // namespace rakelight

@@ -49,7 +49,11 @@ class PhotometricTensors {
 /// Tensors of all pixels under the state's weights. Samples on the far side of a lamp (l.n <= 0) count in e0 only.
 PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceState& state);
 
-/// The same under new Cauchy weights (refine/steps/robust_weights.h), which the state keeps: both in one read of the images.
+/// The albedo (refine/steps/albedo.h), which the state keeps, and the tensors under it, in one read of the images.
+/// @param tensors of as many pixels
+void find_albedo_and_accumulate(const Observations& images, SurfaceState& state, PhotometricTensors& tensors);
+
+/// The tensors under new Cauchy weights (refine/steps/robust_weights.h), which the state keeps: both in one read of the images.
 /// r^2 of a weight is the mean over the sample's usable channels; the weight is 0 where none is.
 /// @param scale k sigma of the weights, linear radiance  @param tensors of as many pixels
 void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state,

@@ -23,7 +23,7 @@ constexpr double kEdgeWeight = 10, kCauchyScale = 0.02;
 struct Middle {
   RefineOptions options = preset_options(Preset::robust);
   RefineProblem problem;
-  SurfaceState state;
+  SurfaceState state, weighted;
   PhotometricTensors tensors;
   CornerWeights weights;
   std::unique_ptr<DepthProblem> depth;
@@ -34,9 +34,12 @@ struct Middle {
     options.uncertainty_samples = 0;
     options.lamps.model = LampModel::far;
     options.scale = 1;
+    options.trust.cauchy_scale = 0;
     problem = make_problem(wavy_stack(640, 480, kImages), options);
     state = refine_multi_light(problem, options, [](int, double, const Eigen::VectorXd&) {}).state;
     tensors = accumulate_tensors(problem.images, state);
+    weighted = state;
+    reweigh_and_accumulate(problem.images, kCauchyScale, weighted, tensors);
     weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, kEdgeWeight);
     depth.reset(new DepthProblem{problem.grid, problem.corners, tensors, weights, problem.prior});
     system = std::make_unique<DepthSystem>(depth_system(*depth, state.zeta, Linearization::gauss_newton));
@@ -62,12 +65,16 @@ std::vector<Step> iteration_steps() {
   constexpr double kSamples = kImages * 3 * 2, kWeights = kImages * 4, kSurface = 24, kTensor = 40,
                    kCornerWeights = 16, kSystem = 28, kZeta = 8, kSolve = 300;  // bytes a pixel
   return {
-      {"lights", pixels * (kSamples + kWeights + kSurface), 12,
+      {"lights", pixels * (kSamples + kSurface), 12,
        [m] { estimate_far_lamps(m->problem.images, m->state); }},
-      {"albedo", pixels * (kSamples + kWeights + kSurface + 12), 12,
-       [m] { estimate_albedo(m->problem.images, m->state); }},
-      {"weights and tensors", pixels * (kSamples + 2 * kWeights + kSurface + kTensor), 16,
-       [m] { reweigh_and_accumulate(m->problem.images, kCauchyScale, m->state, m->tensors); }},
+      {"albedo and tensors", pixels * (kSamples + kSurface + 12 + kTensor), 12,
+       [m] { find_albedo_and_accumulate(m->problem.images, m->state, m->tensors); }},
+      {"lights, weighted", pixels * (kSamples + kWeights + kSurface), 12,
+       [m] { estimate_far_lamps(m->problem.images, m->weighted); }},
+      {"albedo, weighted", pixels * (kSamples + kWeights + kSurface + 12), 12,
+       [m] { estimate_albedo(m->problem.images, m->weighted); }},
+      {"weights and tensors", pixels * (kSamples + kWeights + kSurface + kTensor), 16,
+       [m] { reweigh_and_accumulate(m->problem.images, kCauchyScale, m->weighted, m->tensors); }},
       {"corner weights", pixels * (kTensor + kCornerWeights + kZeta), 8,
        [m] { corner_weights(m->problem.grid, m->problem.corners, m->tensors, m->state.zeta, kEdgeWeight); }},
       {"system", pixels * (kTensor + kCornerWeights + kZeta + kSystem), 20,

@@ -3,7 +3,7 @@
 #include "refine/kernels/image_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "refine/kernels/deinterleave.cpp"
+#define HWY_TARGET_INCLUDE "refine/kernels/interleave.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -27,6 +27,14 @@ void deinterleave3(const float* triples, int count, TileRow (&rows)[3]) {
     for (int c = 0; c < 3; ++c) rows[c].at[k] = triples[3 * k + c];
 }
 
+void interleave3(const TileRow (&rows)[3], int count, float* triples) {
+  for (int k = 0; k < count; k += lanes()) {
+    const Vector3 v = load3(rows, k);
+    const V parts[] = {v.x, v.y, v.z};
+    store_interleaved<3>(parts, count - k, triples + 3 * k);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rakelight::kernels
 HWY_AFTER_NAMESPACE();
@@ -34,9 +42,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rakelight::kernels {
 HWY_EXPORT(deinterleave3);
+HWY_EXPORT(interleave3);
 
 void deinterleave3(const float* triples, int count, TileRow (&rows)[3]) {
   HWY_DYNAMIC_DISPATCH(deinterleave3)(triples, count, rows);
+}
+
+void interleave3(const TileRow (&rows)[3], int count, float* triples) {
+  HWY_DYNAMIC_DISPATCH(interleave3)(rows, count, triples);
 }
 
 }  // namespace rakelight::kernels
