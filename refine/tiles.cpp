@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "refine/kernels/image_kernels.h"
 #include "refine/kernels/plain_kernels.h"
@@ -29,12 +30,8 @@ const kernels::TileRow kFullTrust = [] {
   return row;
 }();
 
-struct NormalBounds {
-  float least[3], most[3];
-};
-
 /// Whether no normal within the bounds can lie in the attached shadow of a far lamp of the first order, rounding included.
-bool surely_lit(const kernels::TileLamp& lamp, const NormalBounds& normals) {
+bool surely_lit(const kernels::TileLamp& lamp, const kernels::NormalBounds& normals) {
   constexpr float kRounding = 1e-6f;
   if (lamp.kind != kernels::LightKind::far) return false;
   for (const float(&l)[3] : lamp.l) {
@@ -76,7 +73,7 @@ std::vector<kernels::TileLamp> tile_lamps(const SurfaceState& state) {
   return lamps;
 }
 
-Tile::Tile(const Observations& images, const SurfaceState& state)
+Tile::Tile(const Observations& images, const SurfaceState& state, int step)
     : images_(images),
       state_(state),
       any_near_(
@@ -85,6 +82,7 @@ Tile::Tile(const Observations& images, const SurfaceState& state)
       tile_images_(every_image_.size()) {
   std::iota(every_image_.begin(), every_image_.end(), 0);
   for (int i = 0; i < images_.images; ++i) {
+    tile_images_[static_cast<size_t>(i)].next = step;
     for (int c = 0; c < 3; ++c) {
       const ChannelSamples samples = images_.channel(i, c);
       tile_images_[static_cast<size_t>(i)].step[c] = samples.step();
@@ -140,23 +138,45 @@ kernels::ImageChoice Tile::all(const std::vector<kernels::TileLamp>& lamps) cons
   return chosen(lamps, *this, every_image_);
 }
 
-/// Whether each image is plain in a piece.
-void Tile::find_plain(const std::vector<kernels::TileLamp>& lamps, int piece,
-                      std::vector<char>& plain) const {
-  NormalBounds normals;
-  kernels::normal_bounds(surface_, piece * kPiecePixels, normals.least, normals.most);
-  const int of_all = begin_ / kPiecePixels + piece;
-  for (size_t i = 0; i < lamps.size(); ++i)
-    plain[i] = images_.whole(static_cast<int>(i), of_all) && surely_lit(lamps[i], normals);
-}
+/// Which images are plain, piece by piece.
+class Tile::PlainSearch {
+ public:
+  PlainSearch(const Tile& tile, const std::vector<kernels::TileLamp>& lamps)
+      : tile_(tile), lamps_(lamps), lit_(lamps.size()) {
+    kernels::normal_bounds(tile.surface_, bounds_);
+    kernels::NormalBounds whole = bounds_[0];
+    for (const kernels::NormalBounds& bounds : bounds_) {
+      for (int k = 0; k < 3; ++k) {
+        whole.least[k] = std::min(whole.least[k], bounds.least[k]);
+        whole.most[k] = std::max(whole.most[k], bounds.most[k]);
+      }
+    }
+    for (size_t i = 0; i < lamps.size(); ++i) lit_[i] = surely_lit(lamps[i], whole);
+  }
+
+  /// @param plain [image]
+  void in_piece(int piece, std::vector<char>& plain) const {
+    const int of_all = tile_.begin_ / kPiecePixels + piece;
+    for (size_t i = 0; i < lamps_.size(); ++i)
+      plain[i] = tile_.images_.whole(static_cast<int>(i), of_all) &&
+                 (lit_[i] || surely_lit(lamps_[i], bounds_[piece]));
+  }
+
+ private:
+  const Tile& tile_;
+  const std::vector<kernels::TileLamp>& lamps_;
+  kernels::NormalBounds bounds_[kTilePixels / kPiecePixels];
+  std::vector<char> lit_;  ///< [image] in the whole tile
+};
 
 const std::vector<TileStretch>& Tile::stretches(const std::vector<kernels::TileLamp>& lamps) {
   stretches_.clear();
   const int pieces = (count_ + kPiecePixels - 1) / kPiecePixels;
-  const bool weighted = !state_.weight.empty();
+  std::optional<PlainSearch> search;
+  if (state_.weight.empty()) search.emplace(*this, lamps);
   std::vector<char> plain(lamps.size(), 0), before;
   for (int piece = 0; piece < pieces; ++piece) {
-    if (!weighted) find_plain(lamps, piece, plain);
+    if (search) search->in_piece(piece, plain);
     if (piece == 0 || plain != before) {
       TileStretch next;
       next.pixels.begin = piece * kPiecePixels;

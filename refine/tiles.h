@@ -29,7 +29,8 @@ struct TileStretch {
 /// Pixels [begin, begin + count) of a state and its images.
 class Tile {
  public:
-  Tile(const Observations& images, const SurfaceState& state);
+  /// @param step to the tile after
+  Tile(const Observations& images, const SurfaceState& state, int step = kernels::kTilePixels);
 
   /// @param begin a multiple of kernels::kTilePixels  @param count at most kernels::kTilePixels
   void move_to(int begin, int count);
@@ -52,8 +53,9 @@ class Tile {
   kernels::ImageChoice all(const std::vector<kernels::TileLamp>& lamps) const;
 
  private:
+  class PlainSearch;
+
   void fill_up();
-  void find_plain(const std::vector<kernels::TileLamp>& lamps, int piece, std::vector<char>& plain) const;
 
   const Observations& images_;
   const SurfaceState& state_;

@@ -4,6 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "refine/kernels/interleave.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -14,10 +15,12 @@ namespace rakelight::kernels {
 namespace HWY_NAMESPACE {
 
 void deinterleave3(const float* triples, int count, TileRow (&rows)[3]) {
+  constexpr int kLine = 64 / sizeof(float);
   const D d;
   int k = 0;
   for (; k + lanes() <= count; k += lanes()) {
     Vector3 v;
+    for (int j = 0; j < 3 * lanes(); j += kLine) hwy::Prefetch(triples + 3 * (k + kTilePixels) + j);
     hn::LoadInterleaved3(d, triples + 3 * k, v.x, v.y, v.z);
     hn::Store(v.x, d, rows[0].at + k);
     hn::Store(v.y, d, rows[1].at + k);

@@ -9,6 +9,7 @@
 #define RAKELIGHT_LAMP_LIGHT_INL_H
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
@@ -19,6 +20,14 @@ HWY_BEFORE_NAMESPACE();
 namespace rakelight::kernels {
 namespace HWY_NAMESPACE {
 
+/// Starts to fetch the next samples of kVectors vectors from codes on. A tile is read in many short runs: too short for the processor to
+/// see where they go on.
+template <int kVectors>
+HWY_INLINE void fetch_next(const TileImage& image, const std::uint16_t* codes) {
+  constexpr int kLine = 64 / sizeof(std::uint16_t);
+  for (int k = 0; k < kVectors * lanes(); k += kLine) hwy::Prefetch(codes + image.next + k);
+}
+
 /// Radiance of one channel at a vector of pixels, and which of them can be used.
 struct Samples {
   V radiance;
@@ -28,6 +37,7 @@ struct Samples {
     const D d;
     const hn::Rebind<std::uint16_t, D> shorts;
     const auto codes = hn::PromoteTo(Ints(), hn::LoadU(shorts, image.codes[c] + k));
+    fetch_next<1>(image, image.codes[c] + k);
     usable = hn::RebindMask(d, hn::Ne(codes, hn::Set(Ints(), TileImage::kUnusable)));
     radiance = hn::MulAdd(hn::ConvertTo(d, codes), hn::Set(d, image.step[c]), hn::Set(d, image.least[c]));
   }

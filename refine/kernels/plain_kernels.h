@@ -56,7 +56,12 @@ void plain_lights(const TileSurface& surface, Stretch stretch, PlainLights& ligh
 void plain_light_rhs(const TileSurface& surface, const PlainLights& lights, const ImageChoice& choice,
                      Stretch stretch, float (*b)[3][4]);
 
-/// Least and most of each component of the normals in a piece.
-void normal_bounds(const TileSurface& surface, int begin, float (&least)[3], float (&most)[3]);
+/// Least and most of each component of the normals.
+struct NormalBounds {
+  float least[3], most[3];
+};
+
+/// In each piece.
+void normal_bounds(const TileSurface& surface, NormalBounds (&bounds)[kTilePixels / kPiecePixels]);
 
 }  // namespace rakelight::kernels

@@ -51,7 +51,9 @@ HWY_INLINE void plain_rhs_of_channel(const TileSurface& surface, const PlainLigh
     const Vector3 n = load3(lights.rho_n[c], k);
     const V rho = hn::Load(d, surface.albedo[c].at + k);
     for (size_t i = 0; i < kImages; ++i) {
-      const V code = hn::ConvertTo(d, hn::PromoteTo(Ints(), hn::LoadU(shorts, images[i]->codes[c] + k)));
+      const std::uint16_t* codes = images[i]->codes[c] + k;
+      fetch_next<1>(*images[i], codes);
+      const V code = hn::ConvertTo(d, hn::PromoteTo(Ints(), hn::LoadU(shorts, codes)));
       r[i][0] = hn::MulAdd(code, n.x, r[i][0]);
       r[i][1] = hn::MulAdd(code, n.y, r[i][1]);
       r[i][2] = hn::MulAdd(code, n.z, r[i][2]);

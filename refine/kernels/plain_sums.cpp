@@ -62,6 +62,7 @@ void plain_sums_of_channel(const TileSurface& surface, const PlainLamp* lamps, c
     for (int j = 0; j < choice.count; ++j) {
       const int i = choice.which[j];
       const std::uint16_t* codes = choice.images[i].codes[c] + begin;
+      fetch_next<kTogether>(choice.images[i], codes);
       for (int k = 0; k < kTogether; ++k) at[k].add(lamps[i].channel[c], codes + k * lanes());
     }
     for (int j = 0; j < kTogether; ++j) {
@@ -120,17 +121,21 @@ void plain_tensors(const TileSurface& surface, const PlainSums& sums, Stretch st
   }
 }
 
-void normal_bounds(const TileSurface& surface, int begin, float (&least)[3], float (&most)[3]) {
+void normal_bounds(const TileSurface& surface, NormalBounds (&bounds)[kTilePixels / kPiecePixels]) {
   const D d;
-  for (int c = 0; c < 3; ++c) {
-    V low = hn::Load(d, surface.normal[c].at + begin), high = low;
-    for (int k = lanes(); k < kPiecePixels; k += lanes()) {
-      const V n = hn::Load(d, surface.normal[c].at + begin + k);
-      low = hn::Min(low, n);
-      high = hn::Max(high, n);
+  int begin = 0;
+  for (NormalBounds& piece : bounds) {
+    for (int c = 0; c < 3; ++c) {
+      V low = hn::Load(d, surface.normal[c].at + begin), high = low;
+      for (int k = lanes(); k < kPiecePixels; k += lanes()) {
+        const V n = hn::Load(d, surface.normal[c].at + begin + k);
+        low = hn::Min(low, n);
+        high = hn::Max(high, n);
+      }
+      piece.least[c] = hn::GetLane(hn::MinOfLanes(d, low));
+      piece.most[c] = hn::GetLane(hn::MaxOfLanes(d, high));
     }
-    least[c] = hn::GetLane(hn::MinOfLanes(d, low));
-    most[c] = hn::GetLane(hn::MaxOfLanes(d, high));
+    begin += kPiecePixels;
   }
 }
 
@@ -155,8 +160,8 @@ void plain_tensors(const TileSurface& surface, const PlainSums& sums, Stretch st
 
 HWY_EXPORT(normal_bounds);
 
-void normal_bounds(const TileSurface& surface, int begin, float (&least)[3], float (&most)[3]) {
-  HWY_DYNAMIC_DISPATCH(normal_bounds)(surface, begin, least, most);
+void normal_bounds(const TileSurface& surface, NormalBounds (&bounds)[kTilePixels / kPiecePixels]) {
+  HWY_DYNAMIC_DISPATCH(normal_bounds)(surface, bounds);
 }
 
 }  // namespace rakelight::kernels

@@ -7,6 +7,7 @@
 // program runs on any processor. They read whole vectors: arrays of a tile are kTilePixels long, whatever its count.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace rakelight::kernels {
@@ -49,6 +50,7 @@ struct TileImage {
   const std::uint16_t* codes[3] = {};  ///< [channel]
   float step[3] = {}, least[3] = {};
   const float* weight = nullptr;  ///< trust in the pixel's sample
+  std::ptrdiff_t next = 0;        ///< from here to the samples that will be asked for next
 };
 
 /// Pixels [begin, end) of a tile, whole pieces.

@@ -156,7 +156,7 @@ FirstOrderSums first_order_sums(const Observations& images, const SurfaceState& 
   const int step = kernels::kTilePixels * std::max(1, images.pixels / kEnoughPixels);
   return sum_over_blocks(images.pixels, none, [&](int begin, int end) {
     FirstOrderSums sums = none;
-    Tile tile(images, state);
+    Tile tile(images, state, step);
     LightsOfTile of_tile(shadows.size());
     for (int p = begin; p < end; p += step) {
       tile.move_to(p, std::min(kernels::kTilePixels, end - p));
