@@ -90,14 +90,22 @@ void set_image(const PixelGrid& grid, const cv::Mat3f& color, const cv::Mat3b& c
   }
 }
 
+/// Whole tiles, and one more than a multiple of four: the channels' runs of a tile, which are read together, then lie in
+/// different sets of the first-level cache (4096 bytes apart they would push each other out).
+size_t channel_stride(int pixels) {
+  constexpr size_t kTile = kernels::kTilePixels, kApart = 4;
+  const size_t tiles = (static_cast<size_t>(pixels) + kTile - 1) / kTile;
+  return ((tiles + kApart - 2) / kApart * kApart + 1) * kTile;
+}
+
 }  // namespace
 
 Observations::Observations(int pixel_count, int image_count)
     : pixels(pixel_count),
       images(image_count),
       pieces_(static_cast<size_t>(pixel_count + kernels::kPiecePixels - 1) / kernels::kPiecePixels),
-      codes_(3 * static_cast<size_t>(image_count) * static_cast<size_t>(pixel_count),
-             ChannelSamples::kUnusable),
+      stride_(channel_stride(pixel_count)),
+      codes_(3 * static_cast<size_t>(image_count) * stride_, ChannelSamples::kUnusable),
       encoding_(3 * static_cast<size_t>(image_count)),
       whole_(encoding_.size() * pieces_, 0) {}
 
@@ -110,7 +118,7 @@ void Observations::set_channel(int image, int channel, const float* radiance, co
     most = std::max(most, radiance[p]);
   }
   const size_t at = 3 * static_cast<size_t>(image) + static_cast<size_t>(channel);
-  std::uint16_t* codes = codes_.data() + at * static_cast<size_t>(pixels);
+  std::uint16_t* codes = codes_.data() + at * stride_;
   if (!(most >= least)) {
     std::fill_n(codes, pixels, ChannelSamples::kUnusable);
     note_whole_pieces(at);
@@ -131,7 +139,7 @@ void Observations::note_whole_pieces(size_t at) {
   constexpr auto kPiece = static_cast<size_t>(kernels::kPiecePixels);
   const auto count = static_cast<size_t>(pixels);
   for (size_t piece = 0; piece < pieces_; ++piece) {
-    const std::uint16_t* codes = codes_.data() + at * count + piece * kPiece;
+    const std::uint16_t* codes = codes_.data() + at * stride_ + piece * kPiece;
     whole_[at * pieces_ + piece] =
         (piece + 1) * kPiece <= count &&
         std::find(codes, codes + kPiece, ChannelSamples::kUnusable) == codes + kPiece;
@@ -177,8 +185,7 @@ Observations Observations::only(int image) const {
 void Observations::copy_channel(const Observations& from, int from_image, int image, int channel) {
   const size_t at = 3 * static_cast<size_t>(image) + static_cast<size_t>(channel),
                source = 3 * static_cast<size_t>(from_image) + static_cast<size_t>(channel);
-  std::copy_n(from.codes_.data() + source * static_cast<size_t>(pixels), pixels,
-              codes_.data() + at * static_cast<size_t>(pixels));
+  std::copy_n(from.codes_.data() + source * stride_, stride_, codes_.data() + at * stride_);
   encoding_[at] = from.encoding_[source];
   note_whole_pieces(at);
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "refine/cache_lines.h"
 #include "refine/kernels/tile.h"
 #include "refine/pixel_grid.h"
 #include "stack/stack.h"
@@ -28,6 +29,7 @@ class ChannelSamples {
   float operator[](int pixel) const { return least_ + step_ * static_cast<float>(codes_[pixel]); }
   bool usable(int pixel) const { return codes_[pixel] != kUnusable; }
 
+  /// Of whole tiles (kernels::kTilePixels): behind the last pixel, none can be used.
   const std::uint16_t* codes() const { return codes_; }
   float step() const { return step_; }
   float least() const { return least_; }
@@ -65,7 +67,7 @@ class Observations {
 
   ChannelSamples channel(int image, int c) const {
     const size_t at = 3 * static_cast<size_t>(image) + static_cast<size_t>(c);
-    return {codes_.data() + at * static_cast<size_t>(pixels), encoding_[at].step, encoding_[at].least};
+    return {codes_.data() + at * stride_, encoding_[at].step, encoding_[at].least};
   }
 
   /// Whether every channel of the image's samples [piece, piece + 1) * kernels::kPiecePixels can be used. False of a piece that the
@@ -103,10 +105,10 @@ class Observations {
 
   void note_whole_pieces(size_t at);
 
-  size_t pieces_ = 0;
-  std::vector<std::uint16_t> codes_;  ///< [image][channel][pixel]
-  std::vector<Encoding> encoding_;    ///< [image][channel]
-  std::vector<unsigned char> whole_;  ///< [image][channel][piece] 1 where every sample can be used
+  size_t pieces_ = 0, stride_ = 0;        ///< a channel
+  CacheLineVector<std::uint16_t> codes_;  ///< [image][channel][pixel], filled up to whole tiles
+  std::vector<Encoding> encoding_;        ///< [image][channel]
+  std::vector<unsigned char> whole_;      ///< [image][channel][piece] 1 where every sample can be used
 };
 
 /// Called with the position in LightStack::frames of a frame that has colour, and the frame, decoded; from several threads.

@@ -109,24 +109,15 @@ void Tile::move_to(int begin, int count) {
                        : state_.weight.data() + static_cast<size_t>(i) * static_cast<size_t>(images_.pixels) +
                              static_cast<size_t>(begin_);
   }
-  if (count_ < kTilePixels) fill_up();
+  if (count_ < kTilePixels && !state_.weight.empty()) fill_up();
 }
 
-/// The last tile has kTilePixels like the others: those behind the last pixel cannot be used.
+/// The last tile has kTilePixels weights like the others.
 void Tile::fill_up() {
-  const auto row = static_cast<size_t>(kTilePixels);
-  codes_.resize(3 * row * tile_images_.size());
   weights_.resize(tile_images_.size());
-  std::uint16_t* codes = codes_.data();
   for (size_t i = 0; i < tile_images_.size(); ++i) {
-    kernels::TileImage& image = tile_images_[i];
-    for (int c = 0; c < 3; ++c, codes += kTilePixels) {
-      std::fill(std::copy_n(image.codes[c], count_, codes), codes + kTilePixels,
-                kernels::TileImage::kUnusable);
-      image.codes[c] = codes;
-    }
-    std::fill(std::copy_n(image.weight, count_, weights_[i].at), std::end(weights_[i].at), 0.0f);
-    image.weight = weights_[i].at;
+    std::fill(std::copy_n(tile_images_[i].weight, count_, weights_[i].at), std::end(weights_[i].at), 0.0f);
+    tile_images_[i].weight = weights_[i].at;
   }
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Between the refinement's state and the vector kernels (refine/kernels/tile.h): a tile's shape and albedo are copied to
-// planar rows once for all images; images and weights are read where they lie, except in the last tile, which is filled up.
+// planar rows once for all images; images and weights are read where they lie, except the last tile's weights, which are filled up.
 #pragma once
 
 #include <vector>
@@ -64,8 +64,7 @@ class Tile {
   kernels::TileSurface surface_;
   std::vector<int> every_image_;
   std::vector<kernels::TileImage> tile_images_;
-  std::vector<std::uint16_t> codes_;       ///< [image][channel] the filled-up samples of the last tile
-  std::vector<kernels::TileRow> weights_;  ///< [image] and its weights
+  std::vector<kernels::TileRow> weights_;  ///< [image] of the last tile, filled up
   std::vector<TileStretch> stretches_;
 };
 

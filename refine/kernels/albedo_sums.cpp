@@ -25,7 +25,7 @@ void add_albedo_sums(const TileSurface& surface, const ImageChoice& choice, Stre
     }
     for_each_image(choice, [&](auto light, const TileImage& image, int) {
       light.move_to(surface, k, n);
-      const V weight = hn::LoadU(d, image.weight + k);
+      const V weight = load_weights(image, k);
       for (int c = 0; c < 3; ++c) {
         const V S = shading(light, c);
         const Samples samples(image, c, k);

@@ -4,7 +4,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "refine/kernels/interleave.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -20,7 +19,8 @@ void deinterleave3(const float* triples, int count, TileRow (&rows)[3]) {
   int k = 0;
   for (; k + lanes() <= count; k += lanes()) {
     Vector3 v;
-    for (int j = 0; j < 3 * lanes(); j += kLine) hwy::Prefetch(triples + 3 * (k + kTilePixels) + j);
+    for (int j = 0; j < 3 * lanes(); j += kLine)
+      __builtin_prefetch(triples + 3 * (k + kTilePixels) + j, 0, 2);
     hn::LoadInterleaved3(d, triples + 3 * k, v.x, v.y, v.z);
     hn::Store(v.x, d, rows[0].at + k);
     hn::Store(v.y, d, rows[1].at + k);

@@ -9,7 +9,6 @@
 #define RAKELIGHT_LAMP_LIGHT_INL_H
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
@@ -24,8 +23,14 @@ namespace HWY_NAMESPACE {
 /// see where they go on.
 template <int kVectors>
 HWY_INLINE void fetch_next(const TileImage& image, const std::uint16_t* codes) {
-  constexpr int kLine = 64 / sizeof(std::uint16_t);
-  for (int k = 0; k < kVectors * lanes(); k += kLine) hwy::Prefetch(codes + image.next + k);
+  constexpr int kLine = 64 / sizeof(std::uint16_t), kSecondLevel = 2;  // the first has no room for two tiles
+  for (int k = 0; k < kVectors * lanes(); k += kLine)
+    __builtin_prefetch(codes + image.next + k, 0, kSecondLevel);
+}
+
+HWY_INLINE V load_weights(const TileImage& image, int k) {
+  __builtin_prefetch(image.weight + image.next + k, 0, 2);
+  return hn::LoadU(D(), image.weight + k);
 }
 
 /// Radiance of one channel at a vector of pixels, and which of them can be used.

@@ -25,7 +25,7 @@ void light_sums_of_channel(const TileSurface& surface, const TileLamp& lamp, con
   for (int k = stretch.begin; k < stretch.end; k += lanes()) {
     Vector3 n = load3(surface.normal, k);
     const Samples samples(image, c, k);
-    const V trust = hn::IfThenElseZero(samples.usable, hn::LoadU(d, image.weight + k));
+    const V trust = hn::IfThenElseZero(samples.usable, load_weights(image, k));
     const V rho = hn::Load(d, surface.albedo[c].at + k);
     const V wr = hn::Mul(trust, rho), wrr = hn::Mul(wr, rho);
     const auto lit = hn::Gt(dot(l, n), least);

@@ -126,7 +126,7 @@ HWY_INLINE void add_images(const TileSurface& surface, const ImageChoice& choice
 
 void add_tensors(const TileSurface& surface, const ImageChoice& choice, Stretch stretch, TileTensors& sums) {
   const auto given = [](const auto&, const Rests&, const TileImage& image, int, int k) {
-    return hn::LoadU(D(), image.weight + k);
+    return load_weights(image, k);
   };
   add_images(surface, choice, stretch, given, sums);
 }

@@ -32,7 +32,7 @@ void store(const kernels::TileTensors& tile, int begin, int count, PhotometricTe
 }  // namespace
 
 PhotometricTensors::PhotometricTensors(size_t pixels)
-    : pixels_(pixels), stride_(pixels + kPadding), parts_(kParts * stride_, 0.0f) {}
+    : pixels_(pixels), stride_(pixels / kPadding * kPadding + 2 * kPadding), parts_(kParts * stride_, 0.0f) {}
 
 PhotometricTensor PhotometricTensors::operator[](size_t pixel) const {
   const auto at = [&](Part which) { return part(which)[pixel]; };

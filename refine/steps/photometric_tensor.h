@@ -12,6 +12,7 @@
 #include <array>
 #include <vector>
 
+#include "refine/cache_lines.h"
 #include "refine/observations.h"
 #include "refine/surface_state.h"
 
@@ -43,7 +44,7 @@ class PhotometricTensors {
 
  private:
   size_t pixels_, stride_;
-  std::vector<float> parts_;
+  CacheLineVector<float> parts_;
 };
 
 /// Tensors of all pixels under the state's weights. Samples on the far side of a lamp (l.n <= 0) count in e0 only.
