@@ -37,14 +37,17 @@ void ImageSums::add_plain(Tile& tile, const TileStretch& stretch) {
 }
 
 void ImageSums::find_albedo(Tile& tile, const TileStretch& stretch) {
-  kernels::add_albedo_sums(tile.surface(), chosen(lamps_.lamps, tile, stretch.others), stretch.pixels,
-                           albedo_);
+  if (!stretch.others.empty())
+    kernels::add_albedo_sums(tile.surface(), chosen(lamps_.lamps, tile, stretch.others), stretch.pixels,
+                             albedo_);
   kernels::divide_albedo(albedo_, stretch.pixels, tile.surface());
 }
 
 void ImageSums::find_tensors(Tile& tile, const TileStretch& stretch) {
   kernels::plain_tensors(tile.surface(), plain_, stretch.pixels, tensors_);
-  kernels::add_tensors(tile.surface(), chosen(lamps_.lamps, tile, stretch.others), stretch.pixels, tensors_);
+  if (!stretch.others.empty())
+    kernels::add_tensors(tile.surface(), chosen(lamps_.lamps, tile, stretch.others), stretch.pixels,
+                         tensors_);
 }
 
 }  // namespace rakelight
