@@ -113,7 +113,6 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     const Eigen::VectorXd before =
         state.zeta;  // the lamps carry the broad shape along, which may undo a depth step
     state.normals = surface_normals(problem.grid, problem.corners, state.zeta);
-    state.points = surface_points(problem.grid, state.zeta);
 
     lamps.update(problem, prior, state, t);  // Eq. (26)
     if (t == 1) require_three_directions(images, state, result);

@@ -82,6 +82,8 @@ void LampEstimator::update(const RefineProblem& problem, const DepthPrior& prior
   const Observations& images = problem.images;
   const int first_near = options_.positions == LampPositions::estimated ? kFirstNear : 2;
   const bool may_be_near = options_.model != LampModel::far && options_.harmonics == 1;
+  if (near_ || (may_be_near && iteration <= kChoice))  // far lamps shine on all points alike
+    state.points = surface_points(problem.grid, state.zeta);
   if (may_be_near && iteration == first_near) start_near(images, state);
   if (!near_) {
     state.lamps = estimate_far_lamps(images, state);

@@ -22,7 +22,8 @@ class LampEstimator {
  public:
   explicit LampEstimator(const LampOptions& options);
 
-  /// Estimates the state's lamps for outer iteration `iteration` (from 1). Call it in order.
+  /// Estimates the state's lamps for outer iteration `iteration` (from 1), and its points where lamps are near or may turn
+  /// out to be. Call it in order.
   /// @throws InputError when positions are to be taken from the stack and a lamp has none
   void update(const RefineProblem& problem, const DepthPrior& prior, SurfaceState& state, int iteration);
 

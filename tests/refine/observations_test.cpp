@@ -61,6 +61,29 @@ TEST(Observations, ComeBackFromPlainNumbers) {
     EXPECT_LT(std::abs(copy.channel(0, 0)[p] - images.channel(0, 0)[p]), 1e-6f);
 }
 
+TEST(Observations, KnowWhichPiecesAreWhole) {
+  constexpr int kPieces = 11;
+  const int pixels = kPieces * kernels::kPiecePixels + 5;
+  const auto of_channel = static_cast<size_t>(pixels);
+  const std::vector<float> radiance(of_channel, 0.5f);
+  std::vector<unsigned char> usable(of_channel, 1);
+  Observations images(pixels, 2);
+  EXPECT_FALSE(images.whole(1, 3));  // no sample yet
+  for (int c = 0; c < 3; ++c) images.set_channel(1, c, radiance.data(), usable.data());
+  for (int piece = 0; piece < kPieces; ++piece) EXPECT_TRUE(images.whole(1, piece));
+  EXPECT_FALSE(images.whole(1, kPieces));  // the pixels end in it
+  EXPECT_FALSE(images.whole(0, 3));
+  usable[4 * kernels::kPiecePixels - 1] = 0;
+  images.set_channel(1, 2, radiance.data(), usable.data());
+  EXPECT_FALSE(images.whole(1, 3));
+  EXPECT_TRUE(images.whole(1, 4));
+  EXPECT_FALSE(images.only(1).whole(0, 3));
+  EXPECT_TRUE(images.only(1).whole(0, 2));
+  usable.assign(of_channel, 0);
+  images.set_channel(1, 0, radiance.data(), usable.data());
+  EXPECT_FALSE(images.whole(1, 4));
+}
+
 TEST(Observe, TakesEachPixelOfTheMaskFromItsPlaceInTheImage) {
   const LightStack stack = test::bump_stack();
   cv::Mat1b mask(stack.color_camera.size(), uchar{0});

@@ -11,6 +11,8 @@
 #include "refine/steps/albedo.h"
 #include "refine/steps/lighting.h"
 #include "refine/steps/photometric_tensor.h"
+#include "refine/steps/quality.h"
+#include "refine/steps/residual_draws.h"
 #include "refine/tiles.h"
 #include "tests/refine/exact_surface.h"
 
@@ -137,6 +139,16 @@ TEST_P(PlainImages, HoldNoShadowAndNoUnusableSample) {
     EXPECT_EQ(plain, 0);
   else
     EXPECT_GT(plain, 20000);
+}
+
+TEST(StatesWithoutWeights, TrustEveryUsableSampleFully) {
+  PartlyPlain sphere(Lamps::far);
+  sphere.general.weight = usable_weights(sphere.images);
+  EXPECT_EQ(lit_images(sphere.images, sphere.plain), lit_images(sphere.images, sphere.general));
+  const DrawFactors factors = DrawFactors::Ones(sphere.images.images, kDrawsAtATime);
+  const std::vector<DrawnPulls> found = pulls_of_scaled_residuals(sphere.images, sphere.plain, factors),
+                                expected = pulls_of_scaled_residuals(sphere.images, sphere.general, factors);
+  for (size_t p = 0; p < expected.size(); ++p) ASSERT_EQ(found[p], expected[p]) << p;
 }
 
 TEST(PlainImagesOfAState, AreNoneWhereSamplesHaveWeights) {
