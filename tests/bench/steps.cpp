@@ -65,13 +65,12 @@ std::vector<Step> iteration_steps() {
   constexpr double kSamples = kImages * 3 * 2, kWeights = kImages * 4, kSurface = 24, kTensor = 40,
                    kCornerWeights = 16, kSystem = 28, kZeta = 8, kSolve = 300;  // bytes a pixel
   return {
-      {"lights", pixels * (kSamples + kSurface), 12,
-       [m] { estimate_far_lamps(m->problem.images, m->state); }},
-      {"albedo and tensors", pixels * (kSamples + kSurface + 12 + kTensor), 12,
+      {"lights", pixels * (kSamples + kSurface), 6, [m] { estimate_far_lamps(m->problem.images, m->state); }},
+      {"albedo and tensors", pixels * (kSamples + kSurface + 12 + kTensor), 10,
        [m] { find_albedo_and_accumulate(m->problem.images, m->state, m->tensors); }},
-      {"lights, weighted", pixels * (kSamples + kWeights + kSurface), 12,
+      {"lights, weighted", pixels * (kSamples + kWeights + kSurface), 8,
        [m] { estimate_far_lamps(m->problem.images, m->weighted); }},
-      {"albedo, weighted", pixels * (kSamples + kWeights + kSurface + 12), 12,
+      {"albedo, weighted", pixels * (kSamples + kWeights + kSurface + 12), 8,
        [m] { estimate_albedo(m->problem.images, m->weighted); }},
       {"weights and tensors", pixels * (kSamples + kWeights + kSurface + kTensor), 16,
        [m] { reweigh_and_accumulate(m->problem.images, kCauchyScale, m->weighted, m->tensors); }},
