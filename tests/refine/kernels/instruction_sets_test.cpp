@@ -47,11 +47,17 @@ double rms_difference_mm(const RefineResult& a, const RefineResult& b) {
   return std::sqrt(sum / count);
 }
 
-class InstructionSets : public testing::TestWithParam<LampModel> {};
+struct Kind {
+  LampModel lamps;
+  bool weighted;  ///< without weights, plain images have kernels of their own
+};
+
+class InstructionSets : public testing::TestWithParam<Kind> {};
 
 TEST_P(InstructionSets, AllGiveTheSameSurface) {
   RefineOptions options;
-  options.lamps.model = GetParam();
+  options.lamps.model = GetParam().lamps;
+  if (!GetParam().weighted) options.trust.cauchy_scale = 0;
   options.max_iterations = options.min_iterations = 6;
   options.uncertainty_samples = 0;
   const std::vector<int64_t> targets = hwy::SupportedAndGeneratedTargets();
@@ -63,7 +69,9 @@ TEST_P(InstructionSets, AllGiveTheSameSurface) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(FarAndNear, InstructionSets, testing::Values(LampModel::far, LampModel::near));
+INSTANTIATE_TEST_SUITE_P(FarAndNear, InstructionSets,
+                         testing::Values(Kind{LampModel::far, true}, Kind{LampModel::far, false},
+                                         Kind{LampModel::near, true}, Kind{LampModel::near, false}));
 
 TEST(Solvers, MultigridAndExactComeToTheSameSurface) {
   RefineOptions options;
