@@ -168,15 +168,18 @@ bool same_bytes(const cv::Mat& a, const cv::Mat& b) {
 }
 
 TEST(RefineDepth, TheResultDoesNotDependOnTheNumberOfThreads) {
-  RefineOptions options = at_scale(2);
-  options.max_iterations = 12;
-  options.threads = 1;
-  const RefineResult one = refine_depth(bump_stack(), options);
-  options.threads = 2;
-  const RefineResult two = refine_depth(bump_stack(), options);
-  EXPECT_TRUE(same_bytes(one.depth, two.depth));
-  EXPECT_TRUE(same_bytes(one.normals, two.normals));
-  EXPECT_TRUE(same_bytes(one.albedo, two.albedo));
+  for (const bool weighted : {true, false}) {
+    RefineOptions options = at_scale(2);
+    options.max_iterations = 12;
+    if (!weighted) options.trust.cauchy_scale = 0;
+    options.threads = 1;
+    const RefineResult one = refine_depth(bump_stack(), options);
+    options.threads = 2;
+    const RefineResult two = refine_depth(bump_stack(), options);
+    EXPECT_TRUE(same_bytes(one.depth, two.depth)) << weighted;
+    EXPECT_TRUE(same_bytes(one.normals, two.normals)) << weighted;
+    EXPECT_TRUE(same_bytes(one.albedo, two.albedo)) << weighted;
+  }
 }
 
 TEST(RefineDepth, ReportsProgressThatOnlyGrows) {
