@@ -77,8 +77,10 @@ TEST(Observations, KnowWhichPiecesAreWhole) {
   images.set_channel(1, 2, radiance.data(), usable.data());
   EXPECT_FALSE(images.whole(1, 3));
   EXPECT_TRUE(images.whole(1, 4));
-  EXPECT_FALSE(images.only(1).whole(0, 3));
-  EXPECT_TRUE(images.only(1).whole(0, 2));
+  Observations copy(pixels, 1);
+  for (int c = 0; c < 3; ++c) copy.copy_channel(images, 1, 0, c);
+  EXPECT_FALSE(copy.whole(0, 3));
+  EXPECT_TRUE(copy.whole(0, 2));
   usable.assign(of_channel, 0);
   images.set_channel(1, 0, radiance.data(), usable.data());
   EXPECT_FALSE(images.whole(1, 4));
