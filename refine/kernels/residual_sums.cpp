@@ -80,8 +80,7 @@ void add_lit_weights(const TileSurface& surface, const TileLamp& lamp, const Til
       const V least = hn::Set(d, lamp.kind == LightKind::second_order ? -1e30f : 0.0f);
       const auto seen = hn::Or(Samples(image, 0, k).usable,
                                hn::Or(Samples(image, 1, k).usable, Samples(image, 2, k).usable));
-      const V weight =
-          hn::IfThenElseZero(hn::And(seen, hn::Gt(most, least)), hn::LoadU(d, image.weight + k));
+      const V weight = hn::IfThenElseZero(hn::And(seen, hn::Gt(most, least)), hn::LoadU(d, image.weight + k));
       hn::Store(hn::Add(weight, hn::Load(d, lit.at + k)), d, lit.at + k);
     }
   });

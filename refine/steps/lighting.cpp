@@ -126,7 +126,7 @@ class LightsOfTile {
       for (const int i : stretch.others) {
         const auto at = static_cast<size_t>(i);
         kernels::LightSums of_image;
-        kernels::light_sums(tile.surface(), shadows[at], tile.images()[i], stretch.pixels, of_image);
+        kernels::light_sums(tile.surface(), shadows[at], tile.image(i), stretch.pixels, of_image);
         sums.add(at, of_image.A, of_image.b);
       }
     }
