@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "refine/kernels/image_kernels.h"
 #include "refine/kernels/plain_kernels.h"
 #include "refine/steps/photometric_tensor.h"
 #include "refine/tiles.h"
@@ -34,6 +35,12 @@ class ImageSums {
   /// The tensors under the surface's albedo.
   void find_tensors(Tile& tile, const TileStretch& stretch);
 
+  /// The same, and what ties the albedo to the normal.
+  void find_coupled_tensors(Tile& tile, const TileStretch& stretch);
+
+  /// Lets the albedo follow the normal in the whole tile. Once, and last.
+  void eliminate_albedo(Tile& tile) { kernels::eliminate_albedo(tile.surface(), coupling_, tensors_); }
+
   const kernels::TileTensors& tensors() const { return tensors_; }
 
  private:
@@ -41,6 +48,7 @@ class ImageSums {
   kernels::PlainSums plain_;
   kernels::AlbedoSums albedo_;
   kernels::TileTensors tensors_;
+  kernels::AlbedoCoupling coupling_;
 };
 
 }  // namespace rakelight

@@ -101,6 +101,9 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
                           : make_multigrid_depth_solver(problem.grid, problem.prior.cells, kStepTolerance);
   const double model_error = options.trust.model_error * median_radiance(images);
   const bool robust = options.trust.cauchy_scale > 0;
+  const AlbedoRole role = options.depth.linearization == Linearization::gauss_newton
+                              ? AlbedoRole::follows_normal
+                              : AlbedoRole::held;
   LampEstimator lamps(options.lamps);
   DepthPrior prior = problem.prior;
   MeasuredNoise noise;
@@ -120,13 +123,13 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     if (robust)
       state.albedo = estimate_albedo(matt, state);  // Eq. (27)
     else
-      find_albedo_and_accumulate(matt, state,
+      find_albedo_and_accumulate(matt, role, state,
                                  tensors);  // tensors hold rho l and rho phi: the scale between them is free
     normalize_albedo(state);
     report.residual_scale = std::max(residual_scale(matt, state), model_error);
     if (robust)
       reweigh_and_accumulate(matt, cauchy_annealing(t) * options.trust.cauchy_scale * report.residual_scale,
-                             state, tensors);
+                             role, state, tensors);
 
     noise = measured_errors(problem, state, t, t <= kWarmUp ? model_error : report.residual_scale);
     prior.cell_weight = sensor_weight(options.depth, noise) * problem.prior.cell_weight;

@@ -31,12 +31,17 @@ void add_albedo_sums(const TileSurface& surface, const ImageChoice& choice, Stre
 /// rho = SI / SS, not below 0, where SS says anything.
 void divide_albedo(const AlbedoSums& sums, Stretch stretch, TileSurface& surface);
 
-/// Adds the images' shares of e(n).
-void add_tensors(const TileSurface& surface, const ImageChoice& choice, Stretch stretch, TileTensors& sums);
+/// Adds the images' shares of e(n). @param coupling what they tie albedo and normal by is added to it; nullptr: not asked for
+void add_tensors(const TileSurface& surface, const ImageChoice& choice, Stretch stretch, TileTensors& sums,
+                 AlbedoCoupling* coupling);
 
 /// The same under new Cauchy weights, which are written to weights[choice.which[k]]: 1 / (1 + r^2 / scale^2), r^2 the mean over the
 /// sample's usable channels; 0 without any. What `choice` holds of weights is not read.
 void reweigh_and_add_tensors(const TileSurface& surface, const ImageChoice& choice, float scale,
-                             Stretch stretch, float* const* weights, TileTensors& sums);
+                             Stretch stretch, float* const* weights, TileTensors& sums,
+                             AlbedoCoupling* coupling);
+
+/// Lets the albedo follow the normal n: e(n + d) -= d' K d with K = sum_c rho^2 (sum w S l)(sum w S l)' / sum w S S.
+void eliminate_albedo(const TileSurface& surface, const AlbedoCoupling& coupling, TileTensors& tensors);
 
 }  // namespace rakelight::kernels

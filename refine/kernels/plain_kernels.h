@@ -10,6 +10,7 @@
 //
 //     sum S I = n'W + F,   sum S^2 = n'G n + 2 g'n + sum phi^2
 //     G += rho^2 G,   h += rho (W - rho g),   e0 += rho^2 sum phi^2 - 2 rho F + E      (refine/steps/photometric_tensor.h)
+//     sum S l = G n + g
 #pragma once
 
 #include "refine/kernels/tile.h"
@@ -43,6 +44,10 @@ void plain_sums(const TileSurface& surface, const PlainLamp* lamps, const ImageC
 
 /// The images' share of e(n), under the surface's albedo. Overwrites.
 void plain_tensors(const TileSurface& surface, const PlainSums& sums, Stretch stretch, TileTensors& tensors);
+
+/// How the images tie albedo to normal. Overwrites.
+void plain_coupling(const TileSurface& surface, const PlainSums& sums, Stretch stretch,
+                    AlbedoCoupling& coupling);
 
 /// What the lights' normal equations (LightSums) of all plain images share.
 struct PlainLights {

@@ -121,6 +121,24 @@ void plain_tensors(const TileSurface& surface, const PlainSums& sums, Stretch st
   }
 }
 
+void plain_coupling(const TileSurface& surface, const PlainSums& sums, Stretch stretch,
+                    AlbedoCoupling& coupling) {
+  const D d;
+  for (int c = 0; c < 3; ++c) {
+    const auto at = [&](PlainTerms::Constant which) { return hn::Set(d, sums.constant[c][which]); };
+    const Vector3 x{at(PlainTerms::xx), at(PlainTerms::xy), at(PlainTerms::xz)},
+        y{at(PlainTerms::xy), at(PlainTerms::yy), at(PlainTerms::yz)},
+        z{at(PlainTerms::xz), at(PlainTerms::yz), at(PlainTerms::zz)};
+    for (int k = stretch.begin; k < stretch.end; k += lanes()) {
+      const Vector3 n = load3(surface.normal, k);
+      hn::Store(hn::Add(dot(x, n), at(PlainTerms::gx)), d, coupling.Sl[c][0].at + k);
+      hn::Store(hn::Add(dot(y, n), at(PlainTerms::gy)), d, coupling.Sl[c][1].at + k);
+      hn::Store(hn::Add(dot(z, n), at(PlainTerms::gz)), d, coupling.Sl[c][2].at + k);
+      hn::Store(sum_of_squares(sums.constant[c], n), d, coupling.SS[c].at + k);
+    }
+  }
+}
+
 void normal_bounds(const TileSurface& surface, NormalBounds (&bounds)[kTilePixels / kPiecePixels]) {
   const D d;
   int begin = 0;
@@ -156,6 +174,13 @@ HWY_EXPORT(plain_tensors);
 
 void plain_tensors(const TileSurface& surface, const PlainSums& sums, Stretch stretch, TileTensors& tensors) {
   HWY_DYNAMIC_DISPATCH(plain_tensors)(surface, sums, stretch, tensors);
+}
+
+HWY_EXPORT(plain_coupling);
+
+void plain_coupling(const TileSurface& surface, const PlainSums& sums, Stretch stretch,
+                    AlbedoCoupling& coupling) {
+  HWY_DYNAMIC_DISPATCH(plain_coupling)(surface, sums, stretch, coupling);
 }
 
 HWY_EXPORT(normal_bounds);

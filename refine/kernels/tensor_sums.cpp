@@ -93,6 +93,50 @@ HWY_INLINE void add_channels(const Light<kKind>& light, const Rests& of, V weigh
   }
 }
 
+/// The sums that tie albedo to normal at one vector of pixels.
+struct Coupling {
+  V SS[3];
+  Vector3 Sl[3];
+
+  HWY_INLINE Coupling(const AlbedoCoupling& tile, int k) {
+    for (int c = 0; c < 3; ++c) {
+      SS[c] = hn::Load(D(), tile.SS[c].at + k);
+      Sl[c] = load3(tile.Sl[c], k);
+    }
+  }
+
+  HWY_INLINE void store(AlbedoCoupling& tile, int k) const {
+    const D d;
+    for (int c = 0; c < 3; ++c) {
+      hn::Store(SS[c], d, tile.SS[c].at + k);
+      hn::Store(Sl[c].x, d, tile.Sl[c][0].at + k);
+      hn::Store(Sl[c].y, d, tile.Sl[c][1].at + k);
+      hn::Store(Sl[c].z, d, tile.Sl[c][2].at + k);
+    }
+  }
+
+  /// @param l of the channel; for near lamps v, which the strength is a factor of
+  HWY_INLINE void add(int c, V weight, V incidence, V least, V phi, const Vector3& l, V strength) {
+    const V S = hn::Add(hn::Max(least, incidence), phi), wS = hn::Mul(weight, S);
+    SS[c] = hn::MulAdd(wS, S, SS[c]);
+    const V lit = hn::IfThenElseZero(hn::Gt(incidence, least), hn::Mul(wS, strength));
+    Sl[c] = {hn::MulAdd(lit, l.x, Sl[c].x), hn::MulAdd(lit, l.y, Sl[c].y), hn::MulAdd(lit, l.z, Sl[c].z)};
+  }
+};
+
+HWY_INLINE void add_coupling(const Light<LightKind::near>& light, const Rests& of, V weight, Coupling& sums) {
+  for (int c = 0; c < 3; ++c)
+    sums.add(c, hn::Mul(weight, of.used[c]), light.incidence(c), light.least(), light.phi(c), light.v(),
+             light.strength(c));
+}
+
+template <LightKind kKind>
+HWY_INLINE void add_coupling(const Light<kKind>& light, const Rests& of, V weight, Coupling& sums) {
+  for (int c = 0; c < 3; ++c)
+    sums.add(c, hn::Mul(weight, of.used[c]), light.incidence(c), light.least(), light.phi(c), light.l(c),
+             hn::Set(D(), 1.0f));
+}
+
 template <LightKind kKind>
 HWY_INLINE V cauchy_weight(const Light<kKind>& light, const Rests& of, V inverse_square) {
   const D d;
@@ -106,40 +150,74 @@ HWY_INLINE V cauchy_weight(const Light<kKind>& light, const Rests& of, V inverse
 }
 
 /// @param weight weight(light, rests, image, which, k)
-template <class Weight>
+template <bool kCoupled, class Weight>
 HWY_INLINE void add_images(const TileSurface& surface, const ImageChoice& choice, Stretch stretch,
-                           const Weight& weight, TileTensors& tile) {
+                           const Weight& weight, TileTensors& tile, AlbedoCoupling& coupling) {
   const D d;
   for (int k = stretch.begin; k < stretch.end; k += lanes()) {
     const Vector3 n = load3(surface.normal, k);
     const V albedo[3] = {hn::Load(d, surface.albedo[0].at + k), hn::Load(d, surface.albedo[1].at + k),
                          hn::Load(d, surface.albedo[2].at + k)};
     Sums sums = load_sums(tile, k);
+    [[maybe_unused]] Coupling couplings(coupling, k);
     for_each_image(choice, [&](auto light, const TileImage& image, int which) {
       light.move_to(surface, k, n);
       const Rests rests(light, albedo, image, k);
-      add_channels(light, rests, weight(light, rests, image, which, k), sums);
+      const V w = weight(light, rests, image, which, k);
+      add_channels(light, rests, w, sums);
+      if constexpr (kCoupled) add_coupling(light, rests, w, couplings);
     });
     store_sums(sums, tile, k);
+    if constexpr (kCoupled) couplings.store(coupling, k);
   }
 }
 
-void add_tensors(const TileSurface& surface, const ImageChoice& choice, Stretch stretch, TileTensors& sums) {
+template <class Weight>
+HWY_INLINE void add_images(const TileSurface& surface, const ImageChoice& choice, Stretch stretch,
+                           const Weight& weight, TileTensors& tile, AlbedoCoupling* coupling) {
+  AlbedoCoupling unused;
+  if (coupling == nullptr)
+    add_images<false>(surface, choice, stretch, weight, tile, unused);
+  else
+    add_images<true>(surface, choice, stretch, weight, tile, *coupling);
+}
+
+void add_tensors(const TileSurface& surface, const ImageChoice& choice, Stretch stretch, TileTensors& sums,
+                 AlbedoCoupling* coupling) {
   const auto given = [](const auto&, const Rests&, const TileImage& image, int, int k) {
     return load_weights(image, k);
   };
-  add_images(surface, choice, stretch, given, sums);
+  add_images(surface, choice, stretch, given, sums, coupling);
 }
 
 void reweigh_and_add_tensors(const TileSurface& surface, const ImageChoice& choice, float scale,
-                             Stretch stretch, float* const* weights, TileTensors& sums) {
+                             Stretch stretch, float* const* weights, TileTensors& sums,
+                             AlbedoCoupling* coupling) {
   const V inverse_square = hn::Set(D(), 1.0f / (scale * scale));
   const auto made = [&](const auto& light, const Rests& rests, const TileImage&, int which, int k) {
     const V weight = cauchy_weight(light, rests, inverse_square);
     hn::StoreU(weight, D(), weights[which] + k);
     return weight;
   };
-  add_images(surface, choice, stretch, made, sums);
+  add_images(surface, choice, stretch, made, sums, coupling);
+}
+
+void eliminate_albedo(const TileSurface& surface, const AlbedoCoupling& coupling, TileTensors& tensors) {
+  const D d;
+  for (int k = 0; k < kTilePixels; k += lanes()) {
+    const Vector3 n = load3(surface.normal, k);
+    const Coupling at(coupling, k);
+    Sums sums = load_sums(tensors, k);
+    for (int c = 0; c < 3; ++c) {
+      const V rho = hn::Load(d, surface.albedo[c].at + k);
+      const V share = hn::Div(rho, hn::Sqrt(hn::Max(at.SS[c], hn::Set(d, 1e-12f))));
+      const Vector3 K = scaled(at.Sl[c], share);  // its root
+      const V along = dot(K, n);
+      sums.add(K, hn::Set(d, -1.0f), hn::Neg(along));
+      sums.e0 = hn::NegMulAdd(along, along, sums.e0);
+    }
+    store_sums(sums, tensors, k);
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -150,15 +228,23 @@ HWY_AFTER_NAMESPACE();
 namespace rakelight::kernels {
 HWY_EXPORT(add_tensors);
 
-void add_tensors(const TileSurface& surface, const ImageChoice& choice, Stretch stretch, TileTensors& sums) {
-  HWY_DYNAMIC_DISPATCH(add_tensors)(surface, choice, stretch, sums);
+void add_tensors(const TileSurface& surface, const ImageChoice& choice, Stretch stretch, TileTensors& sums,
+                 AlbedoCoupling* coupling) {
+  HWY_DYNAMIC_DISPATCH(add_tensors)(surface, choice, stretch, sums, coupling);
 }
 
 HWY_EXPORT(reweigh_and_add_tensors);
 
 void reweigh_and_add_tensors(const TileSurface& surface, const ImageChoice& choice, float scale,
-                             Stretch stretch, float* const* weights, TileTensors& sums) {
-  HWY_DYNAMIC_DISPATCH(reweigh_and_add_tensors)(surface, choice, scale, stretch, weights, sums);
+                             Stretch stretch, float* const* weights, TileTensors& sums,
+                             AlbedoCoupling* coupling) {
+  HWY_DYNAMIC_DISPATCH(reweigh_and_add_tensors)(surface, choice, scale, stretch, weights, sums, coupling);
+}
+
+HWY_EXPORT(eliminate_albedo);
+
+void eliminate_albedo(const TileSurface& surface, const AlbedoCoupling& coupling, TileTensors& tensors) {
+  HWY_DYNAMIC_DISPATCH(eliminate_albedo)(surface, coupling, tensors);
 }
 
 }  // namespace rakelight::kernels

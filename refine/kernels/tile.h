@@ -76,4 +76,9 @@ struct TileTensors {
   TileRow xx, xy, xz, yy, yz, zz, hx, hy, hz, e0;
 };
 
+/// How albedo and normal hang together, a channel: sum w S S, and sum w S l over the lit samples.
+struct AlbedoCoupling {
+  TileRow SS[3], Sl[3][3];  ///< [channel], [channel][x, y, z]
+};
+
 }  // namespace rakelight::kernels

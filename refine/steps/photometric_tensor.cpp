@@ -50,8 +50,9 @@ void PhotometricTensors::set(size_t pixel, const PhotometricTensor& tensor) {
   for (size_t k = 0; k < kParts; ++k) parts_[k * stride_ + pixel] = numbers[k];
 }
 
-void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state,
+void reweigh_and_accumulate(const Observations& images, double scale, AlbedoRole role, SurfaceState& state,
                             PhotometricTensors& tensors) {
+  const bool coupled = role == AlbedoRole::follows_normal;
   const auto pixels = static_cast<size_t>(images.pixels), count = state.lamps.size();
   state.weight.resize(count * pixels);
   const std::vector<kernels::TileLamp> lamps = tile_lamps(state);
@@ -63,8 +64,10 @@ void reweigh_and_accumulate(const Observations& images, double scale, SurfaceSta
     std::vector<float*> weights(count);
     for (size_t i = 0; i < count; ++i) weights[i] = last.empty() ? weights_of(i) : last[i].at;
     kernels::TileTensors sums{};
+    kernels::AlbedoCoupling coupling{};
     kernels::reweigh_and_add_tensors(tile.surface(), tile.all(lamps), static_cast<float>(scale), {},
-                                     weights.data(), sums);
+                                     weights.data(), sums, coupled ? &coupling : nullptr);
+    if (coupled) kernels::eliminate_albedo(tile.surface(), coupling, sums);
     for (size_t i = 0; i < last.size(); ++i) std::copy_n(last[i].at, tile.count(), weights_of(i));
     store(sums, tile.begin(), tile.count(), tensors);
   });
@@ -84,7 +87,7 @@ PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceS
   return tensors;
 }
 
-void find_albedo_and_accumulate(const Observations& images, SurfaceState& state,
+void find_albedo_and_accumulate(const Observations& images, AlbedoRole role, SurfaceState& state,
                                 PhotometricTensors& tensors) {
   const ImageLamps lamps(images, state);
   for_each_tile(images, state, [&](Tile& tile) {
@@ -92,8 +95,12 @@ void find_albedo_and_accumulate(const Observations& images, SurfaceState& state,
     for (const TileStretch& stretch : tile.stretches(lamps.lamps)) {
       sums.add_plain(tile, stretch);
       sums.find_albedo(tile, stretch);
-      sums.find_tensors(tile, stretch);
+      if (role == AlbedoRole::held)
+        sums.find_tensors(tile, stretch);
+      else
+        sums.find_coupled_tensors(tile, stretch);
     }
+    if (role == AlbedoRole::follows_normal) sums.eliminate_albedo(tile);
     tile.store_albedo(state.albedo);
     store(sums.tensors(), tile.begin(), tile.count(), tensors);
   });

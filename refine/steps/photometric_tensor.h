@@ -6,6 +6,13 @@
 //     e(n) = n' G n - 2 h' n + e0,   G = sum w rho^2 l l',  h = sum w rho l (I - rho phi),  e0 = sum w (I - rho phi)^2
 //
 // so the images are read once, and the depth step works on ten numbers a pixel.
+//
+// That is with the albedo held. Where it follows the normal instead (variable projection: rho = sum w S I / sum w S^2 is put in,
+// and the derivative taken through it, Kaufman's way), turning the normal by d costs less by what a new albedo takes up:
+//
+//     e(n + d) -= d' K d,   K = sum_c rho^2 (sum w S l)(sum w S l)' / sum w S^2
+//
+// Held, albedo and shape each wait for the other, and creep: iterations that take a turn for the albedo's change.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,6 +33,8 @@ struct PhotometricTensor {
 
   float energy(const Eigen::Vector3f& n) const { return n.dot(G * n) - 2.0f * h.dot(n) + e0; }
 };
+
+enum class AlbedoRole { held, follows_normal };
 
 /// The forms of all pixels, planar.
 class PhotometricTensors {
@@ -52,12 +61,13 @@ PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceS
 
 /// The albedo (refine/steps/albedo.h), which the state keeps, and the tensors under it, in one read of the images.
 /// @param tensors of as many pixels
-void find_albedo_and_accumulate(const Observations& images, SurfaceState& state, PhotometricTensors& tensors);
+void find_albedo_and_accumulate(const Observations& images, AlbedoRole role, SurfaceState& state,
+                                PhotometricTensors& tensors);
 
 /// The tensors under new Cauchy weights (refine/steps/robust_weights.h), which the state keeps: both in one read of the images.
 /// r^2 of a weight is the mean over the sample's usable channels; the weight is 0 where none is.
 /// @param scale k sigma of the weights, linear radiance  @param tensors of as many pixels
-void reweigh_and_accumulate(const Observations& images, double scale, SurfaceState& state,
+void reweigh_and_accumulate(const Observations& images, double scale, AlbedoRole role, SurfaceState& state,
                             PhotometricTensors& tensors);
 
 }  // namespace rakelight

@@ -39,7 +39,7 @@ struct Middle {
     state = refine_multi_light(problem, options, [](int, double, const Eigen::VectorXd&) {}).state;
     tensors = accumulate_tensors(problem.images, state);
     weighted = state;
-    reweigh_and_accumulate(problem.images, kCauchyScale, weighted, tensors);
+    reweigh_and_accumulate(problem.images, kCauchyScale, AlbedoRole::held, weighted, tensors);
     weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, kEdgeWeight);
     depth.reset(new DepthProblem{problem.grid, problem.corners, tensors, weights, problem.prior});
     system = std::make_unique<DepthSystem>(depth_system(*depth, state.zeta, Linearization::gauss_newton));
@@ -67,13 +67,18 @@ std::vector<Step> iteration_steps() {
   return {
       {"lights", pixels * (kSamples + kSurface), 6, [m] { estimate_far_lamps(m->problem.images, m->state); }},
       {"albedo and tensors", pixels * (kSamples + kSurface + 12 + kTensor), 10,
-       [m] { find_albedo_and_accumulate(m->problem.images, m->state, m->tensors); }},
+       [m] {
+         find_albedo_and_accumulate(m->problem.images, AlbedoRole::follows_normal, m->state, m->tensors);
+       }},
       {"lights, weighted", pixels * (kSamples + kWeights + kSurface), 8,
        [m] { estimate_far_lamps(m->problem.images, m->weighted); }},
       {"albedo, weighted", pixels * (kSamples + kWeights + kSurface + 12), 8,
        [m] { estimate_albedo(m->problem.images, m->weighted); }},
       {"weights and tensors", pixels * (kSamples + kWeights + kSurface + kTensor), 16,
-       [m] { reweigh_and_accumulate(m->problem.images, kCauchyScale, m->weighted, m->tensors); }},
+       [m] {
+         reweigh_and_accumulate(m->problem.images, kCauchyScale, AlbedoRole::follows_normal, m->weighted,
+                                m->tensors);
+       }},
       {"corner weights", pixels * (kTensor + kCornerWeights + kZeta), 8,
        [m] { corner_weights(m->problem.grid, m->problem.corners, m->tensors, m->state.zeta, kEdgeWeight); }},
       {"system", pixels * (kTensor + kCornerWeights + kZeta + kSystem), 20,

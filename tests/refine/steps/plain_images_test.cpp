@@ -99,14 +99,59 @@ TEST_P(PlainImages, GiveAlbedoAndTensorsAtOnce) {
   PartlyPlain sphere(GetParam());
   const auto pixels = static_cast<size_t>(sphere.images.pixels);
   PhotometricTensors found(pixels), weighted(pixels);
-  find_albedo_and_accumulate(sphere.images, sphere.plain, found);
-  find_albedo_and_accumulate(sphere.images, sphere.general, weighted);
+  find_albedo_and_accumulate(sphere.images, AlbedoRole::held, sphere.plain, found);
+  find_albedo_and_accumulate(sphere.images, AlbedoRole::held, sphere.general, weighted);
   SurfaceState in_turn = sphere.general;
   in_turn.albedo = estimate_albedo(sphere.images, in_turn);
   EXPECT_LT((sphere.plain.albedo - in_turn.albedo).cwiseAbs().maxCoeff(), 1e-5f);
   const PhotometricTensors expected = accumulate_tensors(sphere.images, in_turn);
   expect_same(found, expected);
   expect_same(weighted, expected);
+}
+
+TEST_P(PlainImages, LetTheAlbedoFollowAsTheGeneralSumsDo) {
+  PartlyPlain sphere(GetParam());
+  const auto pixels = static_cast<size_t>(sphere.images.pixels);
+  PhotometricTensors found(pixels), expected(pixels);
+  find_albedo_and_accumulate(sphere.images, AlbedoRole::follows_normal, sphere.plain, found);
+  find_albedo_and_accumulate(sphere.images, AlbedoRole::follows_normal, sphere.general, expected);
+  expect_same(found, expected);
+}
+
+/// Without shadows, lamp images are linear in the normal: what the best albedo leaves of them is known.
+TEST(AlbedoThatFollowsTheNormal, GivesTheEnergyOfTheBestAlbedoToSecondOrder) {
+  PartlyPlain sphere(Lamps::far_without_shadows);
+  PhotometricTensors held(static_cast<size_t>(sphere.images.pixels)), following = held;
+  find_albedo_and_accumulate(sphere.images, AlbedoRole::held, sphere.plain, held);
+  find_albedo_and_accumulate(sphere.images, AlbedoRole::follows_normal, sphere.plain, following);
+  const auto best_energy = [&](size_t p, const Eigen::Vector3f& n) {
+    double energy = 0;
+    for (int c = 0; c < 3; ++c) {
+      double SS = 0, SI = 0, II = 0;
+      for (int i = 0; i < sphere.images.images; ++i) {
+        const int pixel = static_cast<int>(p);
+        if (!sphere.images.usable(i, c, pixel)) continue;
+        const Lamp& lamp = sphere.plain.lamps[static_cast<size_t>(i)];
+        const double S = static_cast<double>(lamp.l.row(c).dot(n) + lamp.phi[c]);
+        const auto I = static_cast<double>(sphere.images.radiance_at(i, pixel)[c]);
+        SS += S * S;
+        SI += S * I;
+        II += I * I;
+      }
+      energy += SS > 0 ? II - SI * SI / SS : II;
+    }
+    return energy;
+  };
+  double miss = 0, miss_held = 0;
+  for (size_t p = 3; p < held.size(); p += 301) {
+    const Eigen::Vector3f n = sphere.plain.normals.col(static_cast<Eigen::Index>(p));
+    const Eigen::Vector3f turned = n + Eigen::Vector3f(0.02f, -0.03f, 0.01f);
+    EXPECT_NEAR(static_cast<double>(following[p].energy(n)), best_energy(p, n), 2e-5) << p;
+    const double expected = best_energy(p, turned) - best_energy(p, n);
+    miss += std::abs(static_cast<double>(following[p].energy(turned) - following[p].energy(n)) - expected);
+    miss_held += std::abs(static_cast<double>(held[p].energy(turned) - held[p].energy(n)) - expected);
+  }
+  EXPECT_LT(miss, 0.2 * miss_held);
 }
 
 TEST_P(PlainImages, HoldNoShadowAndNoUnusableSample) {

@@ -31,7 +31,7 @@ struct NoisySphere {
   /// The state's weights by residuals of scale kSigma.
   const std::vector<float>& reweighed() {
     PhotometricTensors tensors(static_cast<size_t>(images.pixels));
-    reweigh_and_accumulate(images, static_cast<double>(kSigma), state, tensors);
+    reweigh_and_accumulate(images, static_cast<double>(kSigma), AlbedoRole::held, state, tensors);
     return state.weight;
   }
 
@@ -118,7 +118,7 @@ TEST(CauchyWeights, AreThoseOfTheTensorsMadeWithThem) {
   NoisySphere noisy;
   noisy.add_highlights();
   PhotometricTensors tensors(static_cast<size_t>(noisy.images.pixels));
-  reweigh_and_accumulate(noisy.images, static_cast<double>(kSigma), noisy.state, tensors);
+  reweigh_and_accumulate(noisy.images, static_cast<double>(kSigma), AlbedoRole::held, noisy.state, tensors);
   const PhotometricTensors again = accumulate_tensors(noisy.images, noisy.state);
   for (size_t p = 0; p < tensors.size(); ++p) {
     EXPECT_EQ(tensors[p].G, again[p].G);
