@@ -37,7 +37,7 @@ struct Gradients {
   }
 };
 
-/// Normal of Eq. (5) and what its derivatives are made of.
+/// The camera's share in the normals of Eq. (5) at a vector of pixels.
 struct Frame {
   V fx, fy, x, y;
 
@@ -57,27 +57,50 @@ struct Frame {
 
 HWY_INLINE V inverse_length(const Vector3& v) { return hn::Div(hn::Set(D(), 1.0f), hn::Sqrt(dot(v, v))); }
 
-/// e(n) = n' G n - 2 h' n + e0 of a vector of pixels.
-struct Tensor {
-  V xx, xy, xz, yy, yz, zz, e0;
-  Vector3 h;
+/// e(n) = n' G n - 2 h' n + e0 of a vector of pixels as a form of the gradient. The raw normal is linear in q = (gx, gy, 1),
+/// J' = M q, so with H = M' G M and k = M' h, the same at a pixel's four corners,
+///
+///     e = q' H q / d^2 - 2 k' q / d + e0,   d = |J'|
+struct GradientForm {
+  V xx, xy, xz, yy, yz, zz;  ///< H
+  Vector3 k;
+  V e0;
 
-  Tensor(const TensorRun& run, int i) {
-    const D d;
-    const auto at = [&](int part) { return hn::LoadU(d, run.part[part] + i); };
-    xx = at(0), xy = at(1), xz = at(2), yy = at(3), yz = at(4), zz = at(5);
-    h = {at(6), at(7), at(8)};
-    e0 = at(9);
+  GradientForm(const TensorRun& run, const Frame& at, int i) {
+    const auto part = [&](int number) { return hn::LoadU(D(), run.part[number] + i); };
+    const V Gxz = part(2), Gyz = part(4), hz = part(8);
+    zz = part(5);
+    xz = hn::NegMulAdd(at.fx, Gxz, hn::Mul(at.x, zz));
+    yz = hn::NegMulAdd(at.fy, Gyz, hn::Mul(at.y, zz));
+    const V left = hn::NegMulAdd(at.x, Gxz, hn::Mul(at.fx, part(0))),
+            middle = hn::NegMulAdd(at.y, Gxz, hn::Mul(at.fy, part(1))),
+            right = hn::NegMulAdd(at.y, Gyz, hn::Mul(at.fy, part(3)));
+    xx = hn::MulAdd(at.x, xz, hn::Mul(at.fx, left));
+    xy = hn::MulAdd(at.x, yz, hn::Mul(at.fx, middle));
+    yy = hn::MulAdd(at.y, yz, hn::Mul(at.fy, right));
+    k = {hn::NegMulAdd(at.x, hz, hn::Mul(at.fx, part(6))), hn::NegMulAdd(at.y, hz, hn::Mul(at.fy, part(7))),
+         hn::Neg(hz)};
+    e0 = part(9);
   }
+};
 
-  HWY_INLINE Vector3 times(const Vector3& v) const {
-    return {dot({xx, xy, xz}, v), dot({xy, yy, yz}, v), dot({xz, yz, zz}, v)};
-  }
+/// The form at one corner.
+struct CornerEnergy {
+  Vector3 raw;                                 ///< J'
+  V inverse_d, inverse_square, kq, Hx, Hy, s;  ///< 1 / d, 1 / d^2, k' q, the gradient's part of H q, q' H q
+  V e;
 
-  /// @param Gn G n
-  HWY_INLINE V energy(const Vector3& n, const Vector3& Gn) const {
-    const V twice = hn::Add(dot(h, n), dot(h, n));
-    return hn::Add(hn::Sub(dot(n, Gn), twice), e0);
+  HWY_INLINE CornerEnergy(const GradientForm& form, const Frame& frame, V gx, V gy) {
+    raw = frame.raw(gx, gy);
+    inverse_d = inverse_length(raw);
+    inverse_square = hn::Mul(inverse_d, inverse_d);
+    Hx = hn::MulAdd(form.xx, gx, hn::MulAdd(form.xy, gy, form.xz));
+    Hy = hn::MulAdd(form.xy, gx, hn::MulAdd(form.yy, gy, form.yz));
+    const V Hz = hn::MulAdd(form.xz, gx, hn::MulAdd(form.yz, gy, form.zz));
+    s = hn::MulAdd(Hx, gx, hn::MulAdd(Hy, gy, Hz));
+    kq = hn::MulAdd(form.k.x, gx, hn::MulAdd(form.k.y, gy, form.k.z));
+    const V twice = hn::Add(inverse_d, inverse_d);
+    e = hn::MulAdd(s, inverse_square, hn::NegMulAdd(twice, kq, form.e0));
   }
 };
 
@@ -88,14 +111,12 @@ HWY_INLINE void for_corner_energies(const CornerRun& run, const TensorRun& tenso
   for (int i = 0; i < run.count; i += lanes()) {
     const Gradients g(run, i);
     const Frame frame(run, i);
-    const Tensor tensor(tensors, i);
+    const GradientForm form(tensors, frame, i);
     const auto bits = load_bits(run.present, i);
     V e[4];
     for (int k = 0; k < 4; ++k) {
-      Vector3 n = frame.raw(g.x[k & 1], g.y[k >> 1]);
-      n = scaled(n, inverse_length(n));
-      const V energy = hn::Max(hn::Zero(d), tensor.energy(n, tensor.times(n)));
-      e[k] = hn::IfThenElseZero(has_corner(bits, k), energy);
+      const CornerEnergy corner(form, frame, g.x[k & 1], g.y[k >> 1]);
+      e[k] = hn::IfThenElseZero(has_corner(bits, k), hn::Max(hn::Zero(d), corner.e));
     }
     store(i, e);
   }
@@ -128,30 +149,22 @@ float weighted_energy(const CornerRun& run, const TensorRun& tensors, const floa
   for (int i = 0; i < run.count; i += lanes()) {
     const Gradients g(run, i);
     const Frame frame(run, i);
-    const Tensor tensor(tensors, i);
+    const GradientForm form(tensors, frame, i);
+    const auto inside = hn::FirstN(d, static_cast<size_t>(run.count - i));
     V w[4];
     hn::LoadInterleaved4(d, weights + 4 * i, w[0], w[1], w[2], w[3]);
-    V here = hn::Zero(d);
     for (int k = 0; k < 4; ++k) {
-      Vector3 n = frame.raw(g.x[k & 1], g.y[k >> 1]);
-      n = scaled(n, inverse_length(n));
-      here = hn::MulAdd(w[k], tensor.energy(n, tensor.times(n)), here);
+      const CornerEnergy corner(form, frame, g.x[k & 1], g.y[k >> 1]);
+      sum = hn::MulAdd(hn::IfThenElseZero(inside, w[k]), corner.e, sum);
     }
-    sum = hn::Add(sum, hn::IfThenElseZero(hn::FirstN(d, static_cast<size_t>(run.count - i)), here));
   }
   return hn::GetLane(hn::SumOfLanes(d, sum));
 }
 
-/// d n / d(zeta_x) or d(zeta_y): J = d raw, projected on the tangent plane when the length turns along, over the length.
-template <bool kTurning>
-HWY_INLINE Vector3 normal_slope(const Vector3& J, const Vector3& n, V inverse_d) {
-  if constexpr (!kTurning) return scaled(J, inverse_d);
-  const V along = dot(J, n);
-  return scaled(
-      {hn::NegMulAdd(along, n.x, J.x), hn::NegMulAdd(along, n.y, J.y), hn::NegMulAdd(along, n.z, J.z)},
-      inverse_d);
-}
-
+/// With t = d n / d(gradient) the tangents (J - alpha J') / d, J = d J' / d(gradient):
+///   t' G t = (J - alpha J')' G (J - alpha J') / d^2,   t' (h - G n) = (J - alpha J')' (h / d - G J' / d^2)
+/// and J' G J, J' G J', J' h are entries of the form. alpha = J . J' / d^2 takes out what only lengthens the normal; the
+/// fixed point keeps it (alpha = 0).
 template <bool kTurning>
 HWY_INLINE float corner_equations_as(const CornerRun& run, const TensorRun& tensors, const float* weights,
                                      const EquationRow& equations) {
@@ -161,29 +174,36 @@ HWY_INLINE float corner_equations_as(const CornerRun& run, const TensorRun& tens
   for (int i = 0; i < run.count; i += lanes()) {
     const Gradients g(run, i);
     const Frame frame(run, i);
-    const Tensor tensor(tensors, i);
-    const Vector3 Jx{frame.fx, none, hn::Neg(frame.x)}, Jy{none, frame.fy, hn::Neg(frame.y)};
+    const GradientForm form(tensors, frame, i);
     const auto inside = hn::FirstN(d, static_cast<size_t>(run.count - i));
     V w[4];
     hn::LoadInterleaved4(d, weights + 4 * i, w[0], w[1], w[2], w[3]);
     V xx[2] = {none, none}, yy[2] = {none, none}, bx[2] = {none, none}, by[2] = {none, none};
     for (int k = 0; k < 4; ++k) {
       const int left = k & 1, up = k >> 1;
+      const CornerEnergy at(form, frame, g.x[left], g.y[up]);
       const V weight = hn::IfThenElseZero(inside, w[k]);
-      Vector3 n = frame.raw(g.x[left], g.y[up]);
-      const V inverse_d = inverse_length(n);
-      n = scaled(n, inverse_d);
-      const Vector3 Gn = tensor.times(n);
-      sum = hn::MulAdd(weight, tensor.energy(n, Gn), sum);
-      const Vector3 nx = normal_slope<kTurning>(Jx, n, inverse_d),
-                    ny = normal_slope<kTurning>(Jy, n, inverse_d);
-      const Vector3 miss{hn::Sub(tensor.h.x, Gn.x), hn::Sub(tensor.h.y, Gn.y), hn::Sub(tensor.h.z, Gn.z)};
-      const Vector3 Gnx = tensor.times(nx);
-      xx[left] = hn::MulAdd(weight, dot(nx, Gnx), xx[left]);
-      yy[up] = hn::MulAdd(weight, dot(ny, tensor.times(ny)), yy[up]);
-      const V xy = hn::Mul(weight, dot(ny, Gnx));
+      sum = hn::MulAdd(weight, at.e, sum);
+      const V by_square = hn::Mul(weight, at.inverse_square), by_length = hn::Mul(weight, at.inverse_d);
+      V Px = at.Hx, Py = at.Hy, Qxx = form.xx, Qyy = form.yy, Qxy = form.xy, kx = form.k.x, ky = form.k.y;
+      if constexpr (kTurning) {
+        const V Jx = hn::NegMulAdd(frame.x, at.raw.z, hn::Mul(frame.fx, at.raw.x)),
+                Jy = hn::NegMulAdd(frame.y, at.raw.z, hn::Mul(frame.fy, at.raw.y));
+        const V alpha_x = hn::Mul(Jx, at.inverse_square), alpha_y = hn::Mul(Jy, at.inverse_square);
+        Px = hn::NegMulAdd(alpha_x, at.s, at.Hx);
+        Py = hn::NegMulAdd(alpha_y, at.s, at.Hy);
+        Qxx = hn::NegMulAdd(alpha_x, hn::Add(at.Hx, Px), Qxx);
+        Qyy = hn::NegMulAdd(alpha_y, hn::Add(at.Hy, Py), Qyy);
+        Qxy = hn::NegMulAdd(alpha_x, at.Hy, hn::NegMulAdd(alpha_y, Px, Qxy));
+        kx = hn::NegMulAdd(alpha_x, at.kq, kx);
+        ky = hn::NegMulAdd(alpha_y, at.kq, ky);
+      }
+      xx[left] = hn::MulAdd(by_square, Qxx, xx[left]);
+      yy[up] = hn::MulAdd(by_square, Qyy, yy[up]);
+      const V xy = hn::Mul(by_square, Qxy);
       hn::StoreU(left == up ? xy : hn::Neg(xy), d, equations.xy[k] + i);
-      const V x = hn::Mul(weight, dot(nx, miss)), y = hn::Mul(weight, dot(ny, miss));
+      const V x = hn::NegMulAdd(by_square, Px, hn::Mul(by_length, kx)),
+              y = hn::NegMulAdd(by_square, Py, hn::Mul(by_length, ky));
       bx[left] = left == 0 ? hn::Add(bx[left], x) : hn::Sub(bx[left], x);
       by[up] = up == 0 ? hn::Add(by[up], y) : hn::Sub(by[up], y);
     }
