@@ -224,7 +224,7 @@ float corner_equations(const CornerRun& run, const TensorRun& tensors, const flo
 }
 
 void gather_equations(const EquationRow& above, const EquationRow& here, const EquationRow& below, int count,
-                      const SystemRun& system) {
+                      const EntryRow& system, float* rhs) {
   constexpr int kRightDown = 0, kLeftDown = 1, kRightUp = 2, kLeftUp = 3;
   const D d;
   for (int i = 0; i < count; i += lanes()) {
@@ -245,7 +245,7 @@ void gather_equations(const EquationRow& above, const EquationRow& here, const E
     store(add(right_ld, below_ru), system.down_right);
     store(add(at(here.xy[kRightDown], -1), below_lu), system.down_left);
     const V in = sum4(at(here.bx[0], -1), at(here.bx[1], 1), at(above.by[0]), at(below.by[1]));
-    store(hn::Sub(in, sum4(at(here.bx[0]), at(here.bx[1]), at(here.by[0]), at(here.by[1]))), system.rhs);
+    store(hn::Sub(in, sum4(at(here.bx[0]), at(here.bx[1]), at(here.by[0]), at(here.by[1]))), rhs);
   }
 }
 
@@ -302,8 +302,8 @@ float corner_equations(const CornerRun& run, const TensorRun& tensors, const flo
 }
 
 void gather_equations(const EquationRow& above, const EquationRow& here, const EquationRow& below, int count,
-                      const SystemRun& system) {
-  HWY_DYNAMIC_DISPATCH(gather_equations)(above, here, below, count, system);
+                      const EntryRow& system, float* rhs) {
+  HWY_DYNAMIC_DISPATCH(gather_equations)(above, here, below, count, system, rhs);
 }
 
 void mean_normals(const CornerRun& run, float* normals) { HWY_DYNAMIC_DISPATCH(mean_normals)(run, normals); }

@@ -5,7 +5,7 @@
 // its energy and the derivatives of Eq. (31), corrected. All four corners are computed; those that do not exist have weight 0.
 #pragma once
 
-#include <cstddef>
+#include "refine/kernels/stencil_kernels.h"
 
 namespace rakelight::kernels {
 
@@ -47,11 +47,8 @@ float corner_equations(const CornerRun& run, const TensorRun& tensors, const flo
                        const EquationRow& equations);
 
 /// The system's rows of a run, gathered from the equations of its row and of the rows above and below.
-struct SystemRun {
-  float *diagonal, *right, *down, *down_right, *down_left, *rhs;
-};
 void gather_equations(const EquationRow& above, const EquationRow& here, const EquationRow& below, int count,
-                      const SystemRun& system);
+                      const EntryRow& system, float* rhs);
 
 /// Unit normals, interleaved, from the mean gradient over the existing corners; (0, 0, -1) without any.
 void mean_normals(const CornerRun& run, float* normals);

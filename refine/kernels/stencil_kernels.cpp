@@ -108,11 +108,11 @@ void collapse_rows(const StencilRow& above, const StencilRow& middle, const Sten
   }
 }
 
-void collapse_along(const BandRow& itself, const BandRow& to_next, const CoarseRow& coarse) {
+void collapse_along(const BandRow& itself, const BandRow& to_next, int coarse_width, const EntryRow& coarse) {
   const D d;
   const V half = hn::Set(d, 0.5f), quarter = hn::Set(d, 0.25f);
-  for (int X = 0; X < coarse.width; X += lanes()) {
-    const auto inside = hn::FirstN(d, static_cast<size_t>(coarse.width - X));
+  for (int X = 0; X < coarse_width; X += lanes()) {
+    const auto inside = hn::FirstN(d, static_cast<size_t>(coarse_width - X));
     const auto store = [&](V value, float* to) { hn::StoreU(hn::IfThenElseZero(inside, value), d, to + X); };
     const auto with_outer = [&](const Around& v) {
       return hn::MulAdd(quarter, hn::Add(v.left, v.right), v.even);
@@ -133,6 +133,133 @@ void collapse_along(const BandRow& itself, const BandRow& to_next, const CoarseR
   }
 }
 
+float dot_row(const float* a, const float* b, int width) {
+  const D d;
+  V sum = hn::Zero(d);
+  for (int i = 0; i < width; i += lanes()) sum = hn::MulAdd(load(a + i), load(b + i), sum);
+  return hn::GetLane(hn::SumOfLanes(d, sum));
+}
+
+void add_row(const float* x, float factor, int width, float* y) {
+  const D d;
+  const V f = hn::Set(d, factor);
+  for (int i = 0; i < width; i += lanes()) hn::StoreU(hn::MulAdd(f, load(x + i), load(y + i)), d, y + i);
+}
+
+void turn_row(const float* z, float factor, float share, int width, float* sum, float* direction) {
+  const D d;
+  const V f = hn::Set(d, factor), s = hn::Set(d, share);
+  for (int i = 0; i < width; i += lanes()) {
+    const V old = load(direction + i);
+    hn::StoreU(hn::MulAdd(f, old, load(sum + i)), d, sum + i);
+    hn::StoreU(hn::MulAdd(s, old, load(z + i)), d, direction + i);
+  }
+}
+
+/// Lines side by side: a vector holds one column of kAcross rows.
+using Across = hn::CappedTag<float, 4>;
+using VA = hn::Vec<Across>;
+constexpr int kAcross = HWY_TARGET == HWY_SCALAR ? 1 : 4;
+constexpr int kVectors = kLines / kAcross;
+
+HWY_INLINE void transpose(VA (&v)[kAcross]) {
+#if HWY_TARGET == HWY_SCALAR
+  (void)v;
+#else
+  const Across d;
+  const hn::RepartitionToWide<Across> pairs;
+  const auto both = [&](VA a) { return hn::BitCast(pairs, a); };
+  const VA low01 = hn::InterleaveLower(d, v[0], v[1]), high01 = hn::InterleaveUpper(d, v[0], v[1]),
+           low23 = hn::InterleaveLower(d, v[2], v[3]), high23 = hn::InterleaveUpper(d, v[2], v[3]);
+  v[0] = hn::BitCast(d, hn::InterleaveLower(pairs, both(low01), both(low23)));
+  v[1] = hn::BitCast(d, hn::InterleaveUpper(pairs, both(low01), both(low23)));
+  v[2] = hn::BitCast(d, hn::InterleaveLower(pairs, both(high01), both(high23)));
+  v[3] = hn::BitCast(d, hn::InterleaveUpper(pairs, both(high01), both(high23)));
+#endif
+}
+
+/// kAcross columns of kLines rows.
+struct Columns {
+  VA at[kVectors][kAcross];  ///< [rows][column]
+
+  HWY_INLINE void load(const float* const (&rows)[kLines], int column) {
+    for (int part = 0; part < kVectors; ++part) {
+      for (int k = 0; k < kAcross; ++k) at[part][k] = hn::LoadU(Across(), rows[kAcross * part + k] + column);
+      transpose(at[part]);
+    }
+  }
+
+  HWY_INLINE void store(float* const (&rows)[kLines], int column) {
+    for (int part = 0; part < kVectors; ++part) {
+      transpose(at[part]);
+      for (int k = 0; k < kAcross; ++k) hn::StoreU(at[part][k], Across(), rows[kAcross * part + k] + column);
+    }
+  }
+};
+
+float factorize_lines(const float* const (&diagonal)[kLines], const float* const (&right)[kLines], int width,
+                      float* factors) {
+  const Across d;
+  const VA none = hn::Zero(d), one = hn::Set(d, 1.0f);
+  VA least = one, coupling[kVectors], multiplier[kVectors];
+  for (int part = 0; part < kVectors; ++part) coupling[part] = multiplier[part] = none;
+  for (int column = 0; column < width; column += kAcross) {
+    Columns center, next;
+    center.load(diagonal, column);
+    next.load(right, column);
+    for (int k = 0; k < kAcross; ++k) {
+      float* to = factors + (column + k) * kLineFactors;
+      for (int part = 0; part < kVectors; ++part) {
+        const VA entry = center.at[part][k];
+        const VA pivot = hn::NegMulAdd(coupling[part], multiplier[part], entry);
+        const auto inside = hn::Ne(entry, none);
+        least = hn::Min(least, hn::IfThenElse(inside, pivot, one));
+        const auto sound = hn::And(inside, hn::Gt(pivot, none));
+        const VA inverse = hn::IfThenElseZero(sound, hn::Div(one, hn::IfThenElse(sound, pivot, one)));
+        coupling[part] = next.at[part][k];
+        multiplier[part] = hn::Mul(coupling[part], inverse);
+        hn::StoreU(multiplier[part], d, to + kAcross * part);
+        hn::StoreU(inverse, d, to + kLines + kAcross * part);
+      }
+    }
+  }
+  return hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+void solve_lines(const float* factors, int width, float* const (&rows)[kLines], float* scratch) {
+  const Across d;
+  const int columns = (width + kAcross - 1) / kAcross * kAcross;
+  const float* read[kLines];
+  std::copy_n(rows, kLines, read);
+  VA last[kVectors], multiplier[kVectors];
+  for (int part = 0; part < kVectors; ++part) last[part] = multiplier[part] = hn::Zero(d);
+  for (int column = 0; column < columns; column += kAcross) {
+    Columns r;
+    r.load(read, column);
+    for (int k = 0; k < kAcross; ++k) {
+      for (int part = 0; part < kVectors; ++part) {
+        last[part] = hn::NegMulAdd(multiplier[part], last[part], r.at[part][k]);
+        multiplier[part] = hn::LoadU(d, factors + (column + k) * kLineFactors + kAcross * part);
+        hn::StoreU(last[part], d, scratch + (column + k) * kLines + kAcross * part);
+      }
+    }
+  }
+  for (VA& each : last) each = hn::Zero(d);
+  for (int column = columns - kAcross; column >= 0; column -= kAcross) {
+    Columns x;
+    for (int k = kAcross - 1; k >= 0; --k) {
+      const float* factor = factors + (column + k) * kLineFactors;
+      for (int part = 0; part < kVectors; ++part) {
+        const VA y = hn::LoadU(d, scratch + (column + k) * kLines + kAcross * part);
+        const VA scaled = hn::Mul(y, hn::LoadU(d, factor + kLines + kAcross * part));
+        x.at[part][k] = last[part] =
+            hn::NegMulAdd(hn::LoadU(d, factor + kAcross * part), last[part], scaled);
+      }
+    }
+    x.store(rows, column);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rakelight::kernels
 HWY_AFTER_NAMESPACE();
@@ -145,6 +272,11 @@ HWY_EXPORT(restrict_row);
 HWY_EXPORT(prolong_row);
 HWY_EXPORT(collapse_rows);
 HWY_EXPORT(collapse_along);
+HWY_EXPORT(dot_row);
+HWY_EXPORT(add_row);
+HWY_EXPORT(turn_row);
+HWY_EXPORT(factorize_lines);
+HWY_EXPORT(solve_lines);
 
 float multiply_row(const StencilRow& A, const float* x, float* y) {
   return HWY_DYNAMIC_DISPATCH(multiply_row)(A, x, y);
@@ -167,8 +299,27 @@ void collapse_rows(const StencilRow& above, const StencilRow& middle, const Sten
   HWY_DYNAMIC_DISPATCH(collapse_rows)(above, middle, below, itself, to_next);
 }
 
-void collapse_along(const BandRow& itself, const BandRow& to_next, const CoarseRow& coarse) {
-  HWY_DYNAMIC_DISPATCH(collapse_along)(itself, to_next, coarse);
+void collapse_along(const BandRow& itself, const BandRow& to_next, int coarse_width, const EntryRow& coarse) {
+  HWY_DYNAMIC_DISPATCH(collapse_along)(itself, to_next, coarse_width, coarse);
+}
+
+float dot_row(const float* a, const float* b, int width) { return HWY_DYNAMIC_DISPATCH(dot_row)(a, b, width); }
+
+void add_row(const float* x, float factor, int width, float* y) {
+  HWY_DYNAMIC_DISPATCH(add_row)(x, factor, width, y);
+}
+
+void turn_row(const float* z, float factor, float share, int width, float* sum, float* direction) {
+  HWY_DYNAMIC_DISPATCH(turn_row)(z, factor, share, width, sum, direction);
+}
+
+float factorize_lines(const float* const (&diagonal)[kLines], const float* const (&right)[kLines], int width,
+                      float* factors) {
+  return HWY_DYNAMIC_DISPATCH(factorize_lines)(diagonal, right, width, factors);
+}
+
+void solve_lines(const float* factors, int width, float* const (&rows)[kLines], float* scratch) {
+  HWY_DYNAMIC_DISPATCH(solve_lines)(factors, width, rows, scratch);
 }
 
 }  // namespace rakelight::kernels

@@ -40,11 +40,34 @@ struct BandRow {
 void collapse_rows(const StencilRow& above, const StencilRow& middle, const StencilRow& below,
                    const BandRow& itself, const BandRow& to_next);
 
-/// The same along the row: a row of the coarse stencil.
-struct CoarseRow {
+/// Where a row of a stencil is written.
+struct EntryRow {
   float *diagonal, *right, *down, *down_right, *down_left;
-  int width;
 };
-void collapse_along(const BandRow& itself, const BandRow& to_next, const CoarseRow& coarse);
+
+/// The same along the row: a row of the coarse stencil.
+void collapse_along(const BandRow& itself, const BandRow& to_next, int coarse_width, const EntryRow& coarse);
+
+/// Sum of a b over a row.
+float dot_row(const float* a, const float* b, int width);
+
+/// y += factor x
+void add_row(const float* x, float factor, int width, float* y);
+
+/// sum += factor direction, then direction = z + share direction.
+void turn_row(const float* z, float factor, float share, int width, float* sum, float* direction);
+
+/// The tridiagonal matrices of that many rows are factorised and solved side by side, because each step along a row waits for
+/// the one before it.
+constexpr int kLines = 8;
+constexpr int kLineFactors = 2 * kLines;  ///< numbers a column
+
+/// L D L' of the rows' tridiagonal matrices. Rows are readable up to a multiple of 4 columns, zeros past the last.
+/// @param factors  kLineFactors a column, columns rounded up to 4  @return the least pivot, 1 at most
+float factorize_lines(const float* const (&diagonal)[kLines], const float* const (&right)[kLines], int width,
+                      float* factors);
+
+/// Solves for the rows in their place. @param scratch kLines numbers a column, columns rounded up to 4
+void solve_lines(const float* factors, int width, float* const (&rows)[kLines], float* scratch);
 
 }  // namespace rakelight::kernels

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "refine/solver/depth_solver.h"
+#include "refine/solver/placement.h"
 #include "refine/solver/sparse_cholesky.h"
 
 namespace rakelight {
@@ -55,7 +56,9 @@ class SymmetricPattern {
 class CholeskyDepthSolver final : public DepthSolver {
  public:
   CholeskyDepthSolver(const PixelGrid& grid, const DepthCells& cells)
-      : grid_(grid), cells_(cells), matrix_(grid, cells) {}
+      : grid_(grid), cells_(cells), placement_(grid), matrix_(grid, cells) {}
+
+  DepthSystem reuse_system() override { return DepthSystem(grid_); }
 
   bool solve(DepthSystem system, Eigen::VectorXd& x) override {
     assemble(system);
@@ -63,7 +66,9 @@ class CholeskyDepthSolver final : public DepthSolver {
         system.curvature.empty()
             ? cholesky_.factorize(matrix_.lower())
             : cholesky_.factorize(matrix_.lower() + curvature_lower_triangle(grid_, system.curvature));
-    return solved && solve_again(system.rhs, x);
+    Eigen::VectorXd rhs;
+    placement_.gather(system.rhs, 1, rhs);
+    return solved && solve_again(rhs, x);
   }
 
   bool solve_again(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) override {
@@ -79,18 +84,24 @@ class CholeskyDepthSolver final : public DepthSolver {
     for (int p = 0; p < grid_.size(); ++p) {
       const size_t i = static_cast<size_t>(p);
       const cv::Point at = grid_.pixels[i];
-      matrix_.add(p, p, static_cast<double>(system.diagonal[i]));
-      add_if_inside(p, grid_.neighbor[kRight][i], system.right[i]);
-      add_if_inside(p, grid_.neighbor[kDown][i], system.down[i]);
-      add_if_inside(p, SymmetricPattern::number_at(grid_, at.x + 1, at.y + 1), system.down_right[i]);
-      add_if_inside(p, SymmetricPattern::number_at(grid_, at.x - 1, at.y + 1), system.down_left[i]);
+      const Eigen::Index place = placement_.place(p);
+      const StencilGrid& S = system.stencil;
+      matrix_.add(p, p, static_cast<double>(S.diagonal[place]));
+      add_if_inside(p, grid_.neighbor[kRight][i], S.right[place]);
+      add_if_inside(p, grid_.neighbor[kDown][i], S.down[place]);
+      add_if_inside(p, SymmetricPattern::number_at(grid_, at.x + 1, at.y + 1), S.down_right[place]);
+      add_if_inside(p, SymmetricPattern::number_at(grid_, at.x - 1, at.y + 1), S.down_left[place]);
     }
-    for (int cell = 0; cell < cells_.size(); ++cell) {
-      const double count = static_cast<double>(cells_.of(cell).size());
-      const double weight = system.cell_weight[cell] / (count * count);
-      for (const int a : cells_.of(cell))
-        for (const int b : cells_.of(cell))
-          if (b <= a) matrix_.add(a, b, weight);
+    for (int cell = 0; cell < cells_.size(); ++cell)
+      if (cells_.of(cell).size() > 1) replace_lumped(cells_.of(cell), system.cell_weight[cell]);
+  }
+
+  void replace_lumped(const DepthCells::Pixels& cell, double weight) {
+    const auto count = static_cast<double>(cell.size());
+    for (const int a : cell) {
+      matrix_.add(a, a, -weight / count);
+      for (const int b : cell)
+        if (b <= a) matrix_.add(a, b, weight / (count * count));
     }
   }
 
@@ -100,6 +111,7 @@ class CholeskyDepthSolver final : public DepthSolver {
 
   const PixelGrid& grid_;
   const DepthCells& cells_;
+  Placement placement_;
   SymmetricPattern matrix_;
   SparseCholesky cholesky_;
 };

@@ -13,6 +13,7 @@
 
 #include "refine/pixel_grid.h"
 #include "refine/solver/curvature.h"
+#include "refine/solver/stencil_grid.h"
 
 namespace rakelight {
 
@@ -37,31 +38,37 @@ struct DepthCells {
   }
 };
 
-/// Symmetric system (stencil + K' diag(cell_weight) K + C) x = rhs, C of second differences (refine/solver/curvature.h).
+/// Symmetric system (S + K' diag(cell_weight) K + C) x = rhs, C of second differences (refine/solver/curvature.h).
 struct DepthSystem {
-  std::vector<float> diagonal, right, down, down_right,
-      down_left;                ///< entry (p, neighbour of p in that direction), 0 without one
+  StencilGrid stencil;          ///< S, and on the diagonal the row sums of K' diag(cell_weight) K (its lumped form)
   Eigen::VectorXd cell_weight;  ///< Lambda, a number a cell
   CurvatureWeights curvature;
-  Eigen::VectorXd rhs;
+  Eigen::VectorXf rhs;  ///< laid out as the stencil (refine/solver/placement.h), 0 outside the mask
 
-  explicit DepthSystem(int pixels)
-      : diagonal(static_cast<size_t>(pixels)),
-        right(diagonal),
-        down(diagonal),
-        down_right(diagonal),
-        down_left(diagonal),
-        rhs(Eigen::VectorXd::Zero(pixels)) {}
+  /// Zeros.
+  explicit DepthSystem(const PixelGrid& grid);
 };
+
+/// Lambda of a system that has none: sets cell_weight and adds the lumped form to the diagonal.
+void add_cell_weight(const PixelGrid& grid, const DepthCells& cells, const Eigen::VectorXd& cell_weight,
+                     DepthSystem& system);
+
+/// C of a system that has none, and its negative half gradient at zeta.
+void add_curvature(const PixelGrid& grid, const CurvatureWeights& weights, const Eigen::VectorXd& zeta,
+                   DepthSystem& system);
 
 class DepthSolver {
  public:
   virtual ~DepthSolver() = default;
 
+  /// A system to be filled in, in the memory of the last one, which then cannot be solved again. Zeros outside the mask;
+  /// all else may be what it was.
+  virtual DepthSystem reuse_system() = 0;
+
   /// Solves the system. @return false when it is not positive definite; x is then untouched.
   virtual bool solve(DepthSystem system, Eigen::VectorXd& x) = 0;
 
-  /// Solves the last system solved for another right-hand side. @return as solve.
+  /// Solves the last system solved for another right-hand side, a number a pixel. @return as solve.
   virtual bool solve_again(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) = 0;
 };
 

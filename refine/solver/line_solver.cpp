@@ -3,95 +3,91 @@
 #include "refine/solver/line_solver.h"
 
 #include <algorithm>
-#include <array>
 
 namespace rakelight {
 namespace {
 
 using Eigen::Index;
+using kernels::kLines;
 
-/// Calls body with the number of rows left as a compile-time constant, so that its loops over rows unroll.
-template <class Body>
-void with_row_count(int rows, const Body& body) {
-  switch (std::min(rows, LineSolver::kRowsAtOnce)) {
-    case 4:
-      return body(std::integral_constant<size_t, 4>());
-    case 3:
-      return body(std::integral_constant<size_t, 3>());
-    case 2:
-      return body(std::integral_constant<size_t, 2>());
-    case 1:
-      return body(std::integral_constant<size_t, 1>());
-    default:
-      return;
-  }
-}
-
-int rows_left(const StencilGrid& A, int first, int step) { return (A.height - first + step - 1) / step; }
-
-/// Where few fine pixels hang on more coarse ones, as at a frayed rim, the coarse matrix is singular though the fine one is not,
-/// and rounding puts its pivots on either side of zero. A pivot below the first share of its diagonal is raised to it, which
-/// keeps the solve positive definite; only one below minus the second speaks of a matrix that is not.
-constexpr float kLeastPivot = 1e-5f, kRounding = 1e-3f;
-
-/// @return whether no pivot is clearly negative
-template <size_t kRows>
-bool factorize_rows(const StencilGrid& A, int first, float* inverse_pivot, float* multiplier) {
-  std::array<float, kRows> coupling{}, before{};
-  float least = 1;
-  for (int i = 0; i < A.width; ++i) {
-    for (size_t k = 0; k < kRows; ++k) {
-      const Index at = A.at(i, first + static_cast<int>(k));
-      const float diagonal = A.diagonal[at], pivot = diagonal - coupling[k] * before[k];
-      if (diagonal != 0.0f) least = std::min(least, pivot + kRounding * diagonal);
-      inverse_pivot[at] = diagonal > 0.0f ? 1.0f / std::max(pivot, kLeastPivot * diagonal) : 0.0f;
-      coupling[k] = A.right[at];
-      multiplier[at] = before[k] = coupling[k] * inverse_pivot[at];
-    }
-  }
-  return least > 0.0f;
-}
-
-template <size_t kRows>
-void solve_rows(const StencilGrid& A, int first, int step, const float* inverse_pivot,
-                const float* multiplier, float* x) {
-  const Index row = step * A.stride(), begin = A.at(0, first);
-  const float *ip = inverse_pivot + begin, *m = multiplier + begin;
-  float* v = x + begin;
-  std::array<float, kRows> last{};
-  for (Index i = 0; i < A.width; ++i) {
-    for (size_t k = 0; k < kRows; ++k) {
-      const Index at = static_cast<Index>(k) * row + i;
-      v[at] = last[k] = v[at] - m[at - 1] * last[k];  // the multiplier in the border is 0
-    }
-  }
-  last = {};
-  for (Index i = A.width - 1; i >= 0; --i) {
-    for (size_t k = 0; k < kRows; ++k) {
-      const Index at = static_cast<Index>(k) * row + i;
-      v[at] = last[k] = v[at] * ip[at] - m[at] * last[k];
-    }
+/// Pointers to the group's rows of a vector over the grid, those in `range`.
+template <class Number>
+void point_at_rows(const GridLayout& grid, const LineSolver::Group& group, cv::Range range, Number* vector,
+                   Number* nowhere, Number* (&rows)[kLines]) {
+  for (size_t k = 0; k < kLines; ++k) {
+    const int y = group.rows[k];
+    rows[k] = range.start <= y && y < range.end ? vector + grid.at(0, y) : nowhere;
   }
 }
 
 }  // namespace
 
-bool LineSolver::factorize(const StencilGrid& A) {
-  inverse_pivot_ = multiplier_ = Eigen::VectorXf::Zero(A.size());
-  std::vector<unsigned char> sound(static_cast<size_t>(A.height), 1);
-  for_rows(A, 0, kRowsAtOnce, [&](int first) {
-    with_row_count(rows_left(A, first, 1), [&](auto rows) {
-      sound[static_cast<size_t>(first)] =
-          factorize_rows<decltype(rows)::value>(A, first, inverse_pivot_.data(), multiplier_.data());
-    });
-  });
-  return std::all_of(sound.begin(), sound.end(), [](unsigned char each) { return each != 0; });
+void LineSolver::add_groups(const std::vector<int>& rows, std::vector<Group>& groups) {
+  for (size_t first = 0; first < rows.size(); first += kLines) {
+    Group group;
+    group.rows.fill(-1);
+    std::copy(rows.begin() + static_cast<std::ptrdiff_t>(first),
+              rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), first + kLines)),
+              group.rows.begin());
+    group.number = groups_++;
+    groups.push_back(group);
+  }
 }
 
-void LineSolver::solve(const StencilGrid& A, int first, int step, Eigen::VectorXf& x) const {
-  with_row_count(rows_left(A, first, step), [&](auto rows) {
-    solve_rows<decltype(rows)::value>(A, first, step, inverse_pivot_.data(), multiplier_.data(), x.data());
+void LineSolver::group_rows(const GridLayout& grid) {
+  grouped_ = grid;
+  columns_ = (grid.width + 3) / 4 * 4;
+  groups_ = 0;
+  strips_.clear();
+  std::array<std::vector<int>, 3> seams;
+  for (int begin = 0; begin < grid.height; begin += kGridStrip) {
+    const int end = begin + kGridStrip;
+    const bool last = end >= grid.height;
+    std::array<std::vector<int>, 2> rows;
+    for (int y = begin; y < std::min(end, grid.height); ++y)
+      if (last || y + 1 < end) rows[static_cast<size_t>(y % 2)].push_back(y);
+    strips_.emplace_back();
+    for (const Color color : {even, odd}) add_groups(rows[color], strips_.back()[color]);
+    if (last) break;
+    seams[seam_odd].push_back(end - 1);
+    seams[seam_above].push_back(end - 2);
+    seams[seam_below].push_back(end);
+  }
+  for (const SeamRow which : {seam_odd, seam_above, seam_below}) {
+    seams_[which].clear();
+    add_groups(seams[which], seams_[which]);
+  }
+  factors_.resize(groups_ * static_cast<size_t>(columns_ * kernels::kLineFactors));
+}
+
+float LineSolver::factorize_group(const StencilGrid& A, const Group& group, const float* nowhere) {
+  const float *diagonal[kLines], *right[kLines];
+  point_at_rows(A, group, {0, A.height}, A.diagonal.data(), nowhere, diagonal);
+  point_at_rows(A, group, {0, A.height}, A.right.data(), nowhere, right);
+  return kernels::factorize_lines(diagonal, right, A.width, factors_of(group));
+}
+
+bool LineSolver::factorize(const StencilGrid& A) {
+  if (!(grouped_ == A.layout())) group_rows(A);
+  const std::vector<float> nowhere(static_cast<size_t>(A.stride()));
+  std::vector<float> least(strips_.size() + 1, 1.0f);
+  const auto factorize_all = [&](const std::vector<Group>& groups, float& lowest) {
+    for (const Group& group : groups)
+      lowest = std::min(lowest, factorize_group(A, group, nowhere.data()));
+  };
+  for_row_strips(A, [&](int begin, int) {
+    const auto strip = static_cast<size_t>(begin / kGridStrip);
+    for (const auto& groups : strips_[strip]) factorize_all(groups, least[strip]);
   });
+  for (const auto& groups : seams_) factorize_all(groups, least.back());
+  return *std::min_element(least.begin(), least.end()) > 0.0f;
+}
+
+void LineSolver::solve(const StencilGrid& A, const Group& group, cv::Range range, Workspace& workspace,
+                       Eigen::VectorXf& x) const {
+  float* rows[kLines];
+  point_at_rows(A, group, range, x.data(), workspace.nowhere_.data(), rows);
+  kernels::solve_lines(factors_of(group), A.width, rows, workspace.scratch_.data());
 }
 
 }  // namespace rakelight

@@ -12,105 +12,174 @@ using Eigen::VectorXf;
 
 constexpr Index kCoarsestCells = 256;
 
-enum Color { even = 0, odd = 1 };
+/// Rows of a grid with borders on both sides, zeros.
+class RowBuffers {
+ public:
+  RowBuffers(const GridLayout& grid, int count)
+      : stride_(grid.stride() + 6 * kernels::kRowAlign),
+        values_(static_cast<size_t>(stride_ * count)) {}
+  float* operator[](int k) { return values_.data() + k * stride_ + kernels::kRowAlign; }
 
-/// Scratch of one row of a grid with borders on both sides, zeros.
-struct RowBuffer {
-  std::vector<float> values;
-
-  explicit RowBuffer(const StencilGrid& grid)
-      : values(static_cast<size_t>(grid.stride()) + 6 * kernels::kRowAlign) {}
-  float* begin() { return values.data() + kernels::kRowAlign; }
+ private:
+  Index stride_;
+  std::vector<float> values_;
 };
 
 /// The row, or zeros where the grid has none.
-kernels::StencilRow row_or_zeros(const StencilGrid& grid, int y, RowBuffer& zeros) {
+kernels::StencilRow row_or_zeros(const StencilGrid& grid, int y, const float* zeros) {
   if (y >= 0 && y < grid.height) return grid.row(y);
-  return {zeros.begin(), zeros.begin(), zeros.begin(), zeros.begin(), zeros.begin(), 0, grid.width};
+  return {zeros, zeros, zeros, zeros, zeros, 0, grid.width};
 }
 
-StencilGrid coarser(const StencilGrid& fine) {
-  StencilGrid coarse(fine.width / 2 + 1, fine.height / 2 + 1);
-  for_rows(coarse, 0, 1, [&](int y) {
-    RowBuffer zeros(fine), same(fine), right(fine), below(fine), below_right(fine), below_left(fine);
-    const kernels::BandRow itself{nullptr, same.begin(), right.begin()};
-    const kernels::BandRow to_next{below_left.begin(), below.begin(), below_right.begin()};
-    kernels::collapse_rows(row_or_zeros(fine, 2 * y - 1, zeros), row_or_zeros(fine, 2 * y, zeros),
-                           row_or_zeros(fine, 2 * y + 1, zeros), itself, to_next);
-    const Index i = coarse.at(0, y);
-    kernels::collapse_along(itself, to_next,
-                            {coarse.diagonal.data() + i, coarse.right.data() + i, coarse.down.data() + i,
-                             coarse.down_right.data() + i, coarse.down_left.data() + i, coarse.width});
-  });
-  return coarse;
-}
-
-/// Gauss-Seidel over the rows of one colour. @param first_visit x counts as 0
-void relax(const StencilGrid& A, const LineSolver& lines, Color color, const VectorXf& r, bool first_visit,
-           VectorXf& x) {
-  for_rows(A, color, 2 * LineSolver::kRowsAtOnce, [&](int first) {
-    for (int k = 0, y = first; k < LineSolver::kRowsAtOnce && y < A.height; ++k, y += 2) {
-      const Index i = A.at(0, y);
-      if (first_visit)
-        x.segment(i, A.width) = r.segment(i, A.width);
-      else
-        kernels::subtract_other_rows(A.row(y), x.data() + i, r.data() + i, x.data() + i);
+void make_coarser(const StencilGrid& fine, StencilGrid& coarse) {
+  for_row_strips(coarse, [&](int begin, int end) {
+    RowBuffers rows(fine, 6);
+    const kernels::BandRow itself{nullptr, rows[1], rows[2]}, to_next{rows[3], rows[4], rows[5]};
+    for (int y = begin; y < end; ++y) {
+      kernels::collapse_rows(row_or_zeros(fine, 2 * y - 1, rows[0]), row_or_zeros(fine, 2 * y, rows[0]),
+                             row_or_zeros(fine, 2 * y + 1, rows[0]), itself, to_next);
+      kernels::collapse_along(itself, to_next, coarse.width, coarse.entries(0, y));
     }
-    lines.solve(A, first, 2, x);
   });
 }
 
-/// Coarse right-hand side, after even and odd rows were relaxed in that order: then the odd rows have no residual. After one
-/// sweep from x = 0 the even ones have what the odd ones brought in.
-void restrict_residual(const StencilGrid& A, const VectorXf& r, bool one_sweep, const VectorXf& x,
-                       const StencilGrid& coarse, VectorXf& coarse_r) {
-  for_rows(coarse, 0, 1, [&](int y) {
-    RowBuffer residual(A);
-    if (2 * y < A.height) {
-      const Index fine = A.at(0, 2 * y);
-      if (one_sweep) {
-        kernels::subtract_other_rows(A.row(2 * y), x.data() + fine, nullptr, residual.begin());
-      } else {
-        kernels::multiply_row(A.row(2 * y), x.data() + fine, residual.begin());
-        for (int u = 0; u < A.width; ++u) residual.begin()[u] = r[fine + u] - residual.begin()[u];
+/// Gauss-Seidel on one level. A pass over it is done strip by strip, then at the seams between the strips.
+class Relaxation {
+ public:
+  Relaxation(const StencilGrid& A, const LineSolver& lines, const VectorXf& r, VectorXf& x)
+      : A_(A), lines_(lines), r_(r), x_(x) {}
+
+  /// All rows of one colour. @param first_visit x counts as 0
+  void relax(Color color, bool first_visit) const {
+    for_row_strips(A_, [&](int begin, int) {
+      LineSolver::Workspace workspace(A_);
+      relax(lines_.in_strip(begin, color), {0, A_.height}, first_visit, workspace);
+    });
+    if (color == even) return;
+    for_seams([&](size_t k, LineSolver::Workspace& workspace) {
+      relax(lines_.seams(LineSolver::seam_odd)[k], {0, A_.height}, first_visit, workspace);
+    });
+  }
+
+  /// Even rows, odd rows, and the coarse right-hand side: then odd rows have no residual.
+  void relax_and_restrict(bool first_visit, const StencilGrid& coarse, VectorXf& coarse_r) const {
+    const auto restrict_row = [&](int y, RowBuffers& residual) {
+      restrict_residual(y, first_visit, coarse, residual[0], coarse_r);
+    };
+    for_row_strips(A_, [&](int begin, int end) {
+      LineSolver::Workspace workspace(A_);
+      RowBuffers residual(A_, 1);
+      relax(lines_.in_strip(begin, even), {begin, end}, first_visit, workspace);
+      relax(lines_.in_strip(begin, odd), {begin, end}, false, workspace);
+      const cv::Range inner = away_from_seams(begin, end);
+      for (int y = inner.start; y < inner.end; y += 2) restrict_row(y, residual);
+    });
+    for_seams([&](size_t k, LineSolver::Workspace& workspace) {
+      RowBuffers residual(A_, 1);
+      relax(lines_.seams(LineSolver::seam_odd)[k], {0, A_.height}, false, workspace);
+      for (const auto beside : {LineSolver::seam_above, LineSolver::seam_below})
+        for (const int y : lines_.seams(beside)[k].rows)
+          if (y >= 0) restrict_row(y, residual);
+    });
+  }
+
+  /// Adds the coarse correction to the even rows, relaxes odd rows (whatever they hold) and even rows.
+  void correct_and_relax(const StencilGrid& coarse, const VectorXf& correction) const {
+    for_row_strips(A_, [&](int begin, int end) {
+      LineSolver::Workspace workspace(A_);
+      for (int y = begin; y < end; y += 2) {
+        const Index i = A_.at(0, y);
+        kernels::prolong_row(correction.data() + coarse.at(0, y / 2), A_.diagonal.data() + i, A_.width,
+                             x_.data() + i);
       }
-    }
-    const Index i = coarse.at(0, y);
-    kernels::restrict_row(residual.begin(), coarse.diagonal.data() + i, coarse.width, coarse_r.data() + i);
-  });
-}
+      relax(lines_.in_strip(begin, odd), {begin, end}, false, workspace);
+      relax(lines_.in_strip(begin, even), away_from_seams(begin, end), false, workspace);
+    });
+    for_seams([&](size_t k, LineSolver::Workspace& workspace) {
+      for (const auto rows : {LineSolver::seam_odd, LineSolver::seam_above, LineSolver::seam_below})
+        relax(lines_.seams(rows)[k], {0, A_.height}, false, workspace);
+    });
+  }
 
-/// Adds the coarse correction to the even rows; the odd ones are relaxed next, whatever they hold.
-void correct_even_rows(const StencilGrid& coarse, const VectorXf& correction, const StencilGrid& A,
-                       VectorXf& x) {
-  for_rows(A, even, 2, [&](int y) {
-    const Index i = A.at(0, y);
-    kernels::prolong_row(correction.data() + coarse.at(0, y / 2), A.diagonal.data() + i, A.width,
-                         x.data() + i);
-  });
-}
+ private:
+  using Group = LineSolver::Group;
+
+  void relax(const std::vector<Group>& groups, cv::Range rows, bool first_visit,
+             LineSolver::Workspace& workspace) const {
+    for (const Group& group : groups) relax(group, rows, first_visit, workspace);
+  }
+
+  void relax(const Group& group, cv::Range rows, bool first_visit, LineSolver::Workspace& workspace) const {
+    for (const int y : group.rows) {
+      if (y < rows.start || y >= rows.end) continue;
+      const Index i = A_.at(0, y);
+      if (first_visit)
+        std::copy_n(r_.data() + i, A_.width, x_.data() + i);
+      else
+        kernels::subtract_other_rows(A_.row(y), x_.data() + i, r_.data() + i, x_.data() + i);
+    }
+    lines_.solve(A_, group, rows, workspace, x_);
+  }
+
+  /// Even rows of a strip whose odd neighbours are all in the strip.
+  cv::Range away_from_seams(int begin, int end) const {
+    return {begin == 0 ? 0 : begin + 2, end == A_.height ? end : end - 2};
+  }
+
+  template <class Body>
+  void for_seams(const Body& body) const {
+    for_each_in_parallel(A_, static_cast<int>(lines_.seams(LineSolver::seam_odd).size()), [&](int k) {
+      LineSolver::Workspace workspace(A_);
+      body(static_cast<size_t>(k), workspace);
+    });
+  }
+
+  /// Of an even row. After one sweep from x = 0 its residual is what the odd rows brought in.
+  void restrict_residual(int y, bool one_sweep, const StencilGrid& coarse, float* residual,
+                         VectorXf& coarse_r) const {
+    const Index fine = A_.at(0, y), i = coarse.at(0, y / 2);
+    if (one_sweep) {
+      kernels::subtract_other_rows(A_.row(y), x_.data() + fine, nullptr, residual);
+    } else {
+      kernels::multiply_row(A_.row(y), x_.data() + fine, residual);
+      for (int u = 0; u < A_.width; ++u) residual[u] = r_[fine + u] - residual[u];
+    }
+    kernels::restrict_row(residual, coarse.diagonal.data() + i, coarse.width, coarse_r.data() + i);
+  }
+
+  const StencilGrid& A_;
+  const LineSolver& lines_;
+  const VectorXf& r_;
+  VectorXf& x_;
+};
 
 }  // namespace
 
-bool Multigrid::setup(StencilGrid finest) {
+void Multigrid::shape_levels() {
+  if (shape_ == finest_->layout()) return;
+  shape_ = *finest_;
   levels_.clear();
   levels_.emplace_back();
-  levels_.back().A = std::move(finest);
-  const auto cells = [](const StencilGrid& A) { return Index{A.width} * A.height; };
-  while (cells(levels_.back().A) > kCoarsestCells) {
-    StencilGrid next = coarser(levels_.back().A);
-    levels_.emplace_back();
-    levels_.back().A = std::move(next);
-    levels_.back().x = levels_.back().r = VectorXf::Zero(levels_.back().A.size());
+  for (GridLayout at = shape_; Index{at.width} * at.height > kCoarsestCells;) {
+    at = {at.width / 2 + 1, at.height / 2 + 1};
+    Level& level = levels_.emplace_back();
+    level.own = StencilGrid(at.width, at.height);
+    level.x = level.r = VectorXf::Zero(at.size());
   }
-  for (Level& level : levels_) {
-    if (!level.lines.factorize(level.A)) return false;
+}
+
+bool Multigrid::setup(const StencilGrid& finest) {
+  finest_ = &finest;
+  shape_levels();
+  for (size_t k = 0; k < levels_.size(); ++k) {
+    if (k > 0) make_coarser(stencil(k - 1), levels_[k].own);
+    if (!levels_[k].lines.factorize(stencil(k))) return false;
   }
   return factorize_coarsest();
 }
 
 bool Multigrid::factorize_coarsest() {
-  const StencilGrid& A = levels_.back().A;
+  const StencilGrid& A = stencil(levels_.size() - 1);
   coarsest_cells_.clear();
   std::vector<Index> number(static_cast<size_t>(A.size()), -1);
   for (int y = 0; y < A.height; ++y) {
@@ -141,24 +210,24 @@ bool Multigrid::factorize_coarsest() {
 }
 
 void Multigrid::apply(const VectorXf& r, VectorXf& z) {
-  if (z.size() != finest().size()) z = VectorXf::Zero(finest().size());
+  if (z.size() != finest_->size()) z = VectorXf::Zero(finest_->size());
   cycle(0, r, z);
 }
 
 void Multigrid::cycle(size_t number, const VectorXf& r, VectorXf& x) {
   if (number + 1 == levels_.size()) return solve_coarsest(r, x);
-  const Level& level = levels_[number];
   Level& next = levels_[number + 1];
-  for (int sweep = 0; sweep < sweeps_; ++sweep) {
-    relax(level.A, level.lines, even, r, sweep == 0, x);
-    relax(level.A, level.lines, odd, r, false, x);
+  const Relaxation level(stencil(number), levels_[number].lines, r, x);
+  for (int sweep = 1; sweep < sweeps_; ++sweep) {
+    level.relax(even, sweep == 1);
+    level.relax(odd, false);
   }
-  restrict_residual(level.A, r, sweeps_ == 1, x, next.A, next.r);
+  level.relax_and_restrict(sweeps_ == 1, next.own, next.r);
   cycle(number + 1, next.r, next.x);
-  correct_even_rows(next.A, next.x, level.A, x);
-  for (int sweep = 0; sweep < sweeps_; ++sweep) {
-    relax(level.A, level.lines, odd, r, false, x);
-    relax(level.A, level.lines, even, r, false, x);
+  level.correct_and_relax(next.own, next.x);
+  for (int sweep = 1; sweep < sweeps_; ++sweep) {
+    level.relax(odd, false);
+    level.relax(even, false);
   }
 }
 

@@ -6,7 +6,8 @@
 // Vertex-centred coarsening (every second pixel), bilinear transfer, Galerkin coarse stencils, zebra line Gauss-Seidel
 // along rows (even rows, then odd ones; the other way round after the coarse correction, so that the cycle is
 // symmetric), an exact solve at the coarsest level. Pixels outside the mask are rows of zeros. Rows of one colour do
-// not touch each other: they run in parallel, and the result does not depend on the number of threads.
+// not touch each other: they run in parallel, and the result does not depend on the number of threads. Both colours and the
+// transfer to or from the coarser level are done in one go over a strip of rows, which stays in the cache.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -19,8 +20,10 @@ namespace rakelight {
 /// Approximate inverse of a positive definite stencil.
 class Multigrid {
  public:
-  /// Builds the coarser stencils. @return false when the matrix is seen not to be positive definite.
-  bool setup(StencilGrid finest);
+  /// Builds the coarser stencils, in the memory of the last ones. @return false when the matrix is seen not to be positive
+  /// definite.
+  /// @param finest must stay until the last apply()
+  bool setup(const StencilGrid& finest);
 
   /// How often each level is relaxed before and after its correction: 1, or more where the entries vary wildly.
   void set_sweeps(int sweeps) { sweeps_ = sweeps; }
@@ -28,20 +31,24 @@ class Multigrid {
   /// z = M r with M symmetric positive definite, close to inv(A). @param z of size() with zeros in its borders, or empty
   void apply(const Eigen::VectorXf& r, Eigen::VectorXf& z);
 
-  const StencilGrid& finest() const { return levels_.front().A; }
+  const StencilGrid& finest() const { return *finest_; }
 
  private:
   struct Level {
-    StencilGrid A;
+    StencilGrid own;  ///< of the coarser levels
     LineSolver lines;
     Eigen::VectorXf x, r;  ///< of the coarser levels: correction and right-hand side
   };
 
+  const StencilGrid& stencil(size_t level) const { return level == 0 ? *finest_ : levels_[level].own; }
+  void shape_levels();
   bool factorize_coarsest();
   void cycle(size_t level, const Eigen::VectorXf& r, Eigen::VectorXf& x);
   void solve_coarsest(const Eigen::VectorXf& r, Eigen::VectorXf& x) const;
 
   int sweeps_ = 1;
+  const StencilGrid* finest_ = nullptr;
+  GridLayout shape_;  ///< that the levels are made for
   std::vector<Level> levels_;
   std::vector<Eigen::Index> coarsest_cells_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;

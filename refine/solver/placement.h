@@ -11,21 +11,20 @@ namespace rakelight {
 
 class Placement {
  public:
-  explicit Placement(const PixelGrid& grid);
+  explicit Placement(const PixelGrid& grid) : grid_(grid), layout_{grid.box.width, grid.box.height} {}
+
+  const GridLayout& layout() const { return layout_; }
 
   Eigen::Index place(int p) const {
     const cv::Point at = grid_.pixels[static_cast<size_t>(p)];
     return layout_.at(at.x - grid_.box.x, at.y - grid_.box.y);
   }
 
-  /// A stencil of zeros.
-  StencilGrid stencil() const { return {layout_.width, layout_.height}; }
   Eigen::VectorXf zeros() const { return Eigen::VectorXf::Zero(layout_.size()); }
 
   /// Copies numbers of the pixels, times `factor`, to their places; all other places stay.
-  template <class Number>
-  void scatter(const Number* pixels, Number factor, Eigen::VectorXf& placed) const {
-    for_each_copied_run([&](int p, Eigen::Index i, int count) {
+  void scatter(const Eigen::VectorXd& pixels, double factor, Eigen::VectorXf& placed) const {
+    for_each_run([&](int p, Eigen::Index i, int count) {
       for (int k = 0; k < count; ++k) placed[i + k] = static_cast<float>(factor * pixels[p + k]);
     });
   }
@@ -33,28 +32,26 @@ class Placement {
   /// The opposite.
   void gather(const Eigen::VectorXf& placed, double factor, Eigen::VectorXd& pixels) const {
     pixels.resize(grid_.size());
-    for_each_copied_run([&](int p, Eigen::Index i, int count) {
+    for_each_run([&](int p, Eigen::Index i, int count) {
       for (int k = 0; k < count; ++k) pixels[p + k] = factor * static_cast<double>(placed[i + k]);
     });
   }
 
  private:
+  /// Calls body(first pixel, its place, count) for every run of pixels.
   template <class Body>
-  void for_each_copied_run(const Body& body) const {
-    cv::parallel_for_(cv::Range(0, static_cast<int>(grid_.runs.size())), [&](const cv::Range& range) {
-      for (int k = range.start; k < range.end; ++k) {
+  void for_each_run(const Body& body) const {
+    for_rows(layout_, [&](int y) {
+      for (int k = grid_.first_run[static_cast<size_t>(y)]; k < grid_.first_run[static_cast<size_t>(y) + 1];
+           ++k) {
         const PixelRun& run = grid_.runs[static_cast<size_t>(k)];
-        body(run.first, place(run.first), run.count);
+        body(run.first, layout_.at(run.x - grid_.box.x, y), run.count);
       }
     });
   }
 
-  struct Layout : StencilGrid {  // its shape only: no entries
-    explicit Layout(cv::Size size) { width = size.width, height = size.height; }
-  };
-
   const PixelGrid& grid_;
-  Layout layout_;
+  GridLayout layout_;
 };
 
 }  // namespace rakelight

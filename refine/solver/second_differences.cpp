@@ -9,8 +9,8 @@ using Eigen::VectorXf;
 
 SecondDifferences::SecondDifferences(const Placement& placement, const CurvatureWeights& weights)
     : across_(placement.zeros()), down_(across_), across_of_x_(across_), down_of_x_(across_) {
-  placement.scatter(weights.across.data(), 1.0, across_);
-  placement.scatter(weights.down.data(), 1.0, down_);
+  placement.scatter(weights.across, 1, across_);
+  placement.scatter(weights.down, 1, down_);
 }
 
 void SecondDifferences::add_product(const StencilGrid& A, const VectorXf& x, VectorXf& y) {
@@ -18,14 +18,14 @@ void SecondDifferences::add_product(const StencilGrid& A, const VectorXf& x, Vec
   const auto difference = [](const VectorXf& v, Index at, Index count, Index step) {
     return v.segment(at - step, count) - 2.0f * v.segment(at, count) + v.segment(at + step, count);
   };
-  for_rows(A, 0, 1, [&](int row) {
+  for_rows(A, [&](int row) {
     const Index at = A.at(0, row);
     across_of_x_.segment(at, A.width) =
         across_.segment(at, A.width).cwiseProduct(difference(x, at, A.width, 1));
     down_of_x_.segment(at, A.width) =
         down_.segment(at, A.width).cwiseProduct(difference(x, at, A.width, stride));
   });
-  for_rows(A, 0, 1, [&](int row) {
+  for_rows(A, [&](int row) {
     const Index at = A.at(0, row);
     y.segment(at, A.width) +=
         difference(across_of_x_, at, A.width, 1) + difference(down_of_x_, at, A.width, stride);

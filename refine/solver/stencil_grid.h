@@ -6,19 +6,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numeric>
 
 #include "refine/kernels/stencil_kernels.h"
 #include "refine/pixel_blocks.h"
 
 namespace rakelight {
 
-struct StencilGrid {
+/// How the rows of width x height pixels lie in a vector.
+struct GridLayout {
   int width = 0, height = 0;
-  Eigen::VectorXf diagonal;                            ///< entry (i, i); 0 outside the mask
-  Eigen::VectorXf right, down, down_right, down_left;  ///< entry (i, neighbour in that direction)
-
-  StencilGrid() = default;
-  StencilGrid(int width_px, int height_px);
 
   Eigen::Index stride() const {
     return (width + kernels::kRowAlign - 1) / kernels::kRowAlign * kernels::kRowAlign + 2;
@@ -28,24 +25,61 @@ struct StencilGrid {
   /// Of vectors over the grid: with borders, and what a vector kernel may read past the last.
   Eigen::Index size() const { return stride() * (height + 2) + 4 * kernels::kRowAlign; }
 
+  bool operator==(const GridLayout& other) const { return width == other.width && height == other.height; }
+};
+
+struct StencilGrid : GridLayout {
+  Eigen::VectorXf diagonal;                            ///< entry (i, i); 0 outside the mask
+  Eigen::VectorXf right, down, down_right, down_left;  ///< entry (i, neighbour in that direction)
+
+  StencilGrid() = default;
+  StencilGrid(int width_px, int height_px);
+
+  const GridLayout& layout() const { return *this; }
   kernels::StencilRow row(int y) const;
+  kernels::EntryRow entries(int x, int y);
 
   /// y = A x for vectors of size() whose borders are zeros. @return x' A x
   double multiply(const Eigen::VectorXf& x, Eigen::VectorXf& y) const;
 };
 
-/// Calls body(y) for rows first, first + step, ... of a grid, in parallel where that is worth it.
+constexpr int kGridStrip = 32;  ///< rows that are worked on together; even
+
+/// Calls body(k) for k = 0, 1, ..., count - 1, in parallel where the grid is worth it.
 template <class Body>
-void for_rows(const StencilGrid& grid, int first, int step, const Body& body) {
+void for_each_in_parallel(const GridLayout& grid, int count, const Body& body) {
   constexpr Eigen::Index kWorthThreads = 16384;  // pixels; smaller grids run faster in one thread
-  const int rows = (grid.height - first + step - 1) / step;
   const auto run = [&](const cv::Range& range) {
-    for (int k = range.start; k < range.end; ++k) body(first + k * step);
+    for (int k = range.start; k < range.end; ++k) body(k);
   };
   if (grid.size() < kWorthThreads)
-    run({0, rows});
+    run({0, count});
   else
-    cv::parallel_for_(cv::Range(0, rows), run);
+    cv::parallel_for_(cv::Range(0, count), run);
+}
+
+/// Calls body(first row, last row + 1) for strips of a grid's rows.
+template <class Body>
+void for_row_strips(const GridLayout& grid, const Body& body) {
+  for_each_in_parallel(grid, (grid.height + kGridStrip - 1) / kGridStrip, [&](int strip) {
+    body(strip * kGridStrip, std::min(grid.height, (strip + 1) * kGridStrip));
+  });
+}
+
+/// Calls body(y) for every row.
+template <class Body>
+void for_rows(const GridLayout& grid, const Body& body) {
+  for_row_strips(grid, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) body(y);
+  });
+}
+
+/// Sum over the rows of body(y), a float each, in a fixed order.
+template <class Body>
+double sum_over_rows(const GridLayout& grid, const Body& body) {
+  std::vector<double> sums(static_cast<size_t>(grid.height));
+  for_rows(grid, [&](int y) { sums[static_cast<size_t>(y)] = static_cast<double>(body(y)); });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace rakelight

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "refine/solver/placement.h"
 #include "refine/steps/albedo_palette.h"
 #include "refine/steps/super_resolution.h"
 
@@ -82,15 +83,16 @@ AlbedoSmoother::AlbedoSmoother(const PixelGrid& grid, const Observations& image,
 bool AlbedoSmoother::solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd& weighted_target,
                            Eigen::Matrix3Xd& log_albedo) {
   const int count = grid_.size();
-  DepthSystem system(count);
+  const Placement placement(grid_);
+  DepthSystem system(grid_);
   system.cell_weight = Eigen::VectorXd::Zero(count);
   Eigen::Matrix3Xd rest = weighted_target - log_albedo * weight.asDiagonal();
-  Eigen::VectorXf::Map(system.diagonal.data(), count) = weight.cast<float>();
+  placement.scatter(weight, 1, system.stencil.diagonal);
   const auto couple = [&](int p, int q, double v, float& entry) {
     if (q < 0) return;
     v *= options_.smoothness;
-    system.diagonal[static_cast<size_t>(p)] += static_cast<float>(v);
-    system.diagonal[static_cast<size_t>(q)] += static_cast<float>(v);
+    system.stencil.diagonal[placement.place(p)] += static_cast<float>(v);
+    system.stencil.diagonal[placement.place(q)] += static_cast<float>(v);
     entry = -static_cast<float>(v);
     const Eigen::Vector3d flow = v * (log_albedo.col(q) - log_albedo.col(p));
     rest.col(p) += flow;
@@ -98,13 +100,15 @@ bool AlbedoSmoother::solve(const Eigen::VectorXd& weight, const Eigen::Matrix3Xd
   };
   for (int p = 0; p < count; ++p) {
     const auto i = static_cast<size_t>(p);
-    couple(p, grid_.neighbor[kRight][i], edges_.right[i], system.right[i]);
-    couple(p, grid_.neighbor[kDown][i], edges_.down[i], system.down[i]);
+    const Eigen::Index place = placement.place(p);
+    couple(p, grid_.neighbor[kRight][i], edges_.right[i], system.stencil.right[place]);
+    couple(p, grid_.neighbor[kDown][i], edges_.down[i], system.stencil.down[place]);
   }
+  placement.scatter(rest.row(0).transpose(), 1, system.rhs);
   for (int c = 0; c < 3; ++c) {
     Eigen::VectorXd correction;
-    system.rhs = rest.row(c).transpose();
-    if (!(c == 0 ? solver_->solve(system, correction) : solver_->solve_again(system.rhs, correction)))
+    if (!(c == 0 ? solver_->solve(std::move(system), correction)
+                 : solver_->solve_again(rest.row(c).transpose(), correction)))
       return false;
     log_albedo.row(c) += correction.transpose();
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace rakelight {
 namespace {
@@ -72,31 +73,46 @@ class EquationRows {
   std::vector<float> values_;
 };
 
-/// Fills the photometric part of the system, strip by strip; a strip computes the rows beside it once more.
+/// Sum over the runs of body(y, run), a double each, in the order that Assembly has.
+template <class Body>
+double sum_over_strips(const PixelGrid& grid, const Body& body) {
+  std::vector<double> sums(static_cast<size_t>(grid.box.height / kRowStrip + 1), 0.0);
+  for_each_strip(grid, [&](int begin, int end) {
+    sums[static_cast<size_t>(begin / kRowStrip)] = body(begin, end);
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+/// Fills a system, strip by strip; a strip computes the rows beside it once more.
 class Assembly {
  public:
   Assembly(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization,
            DepthSystem& system)
       : problem_(problem),
         image_(problem.grid, zeta),
+        prior_(problem.prior, zeta),
         turning_(linearization == Linearization::gauss_newton),
         system_(system) {}
 
-  /// @return the photometric energy of the rows
-  double add_rows(int begin, int end) const {
+  /// @return the energy of the images and the prior
+  double run() const {
+    return prior_.shared_energy() +
+           sum_over_strips(problem_.grid, [&](int begin, int end) { return fill_rows(begin, end); });
+  }
+
+ private:
+  double fill_rows(int begin, int end) const {
     EquationRows equations(problem_.grid);
-    std::vector<float> rhs(static_cast<size_t>(problem_.grid.box.width));
     compute_row(begin - 1, equations);
-    double energy = compute_row(begin, equations);
+    double of_row = compute_row(begin, equations), energy = 0;
     for (int y = begin; y < end; ++y) {
-      const double next = compute_row(y + 1, equations);
-      if (y + 1 < end) energy += next;
-      for_each_run(problem_.grid, y, [&](const PixelRun& run) { gather_run(y, run, equations, rhs); });
+      const double of_next = compute_row(y + 1, equations);
+      energy += of_row + gather_row(y, equations);
+      of_row = of_next;
     }
     return energy;
   }
 
- private:
   double compute_row(int y, EquationRows& equations) const {
     equations.clear(y);
     double energy = 0;
@@ -109,20 +125,36 @@ class Assembly {
     return energy;
   }
 
-  void gather_run(int y, const PixelRun& run, EquationRows& equations, std::vector<float>& rhs) const {
-    const auto at = [&](std::vector<float>& entries) { return entries.data() + run.first; };
-    kernels::gather_equations(equations.row(y - 1, run.x), equations.row(y, run.x),
-                              equations.row(y + 1, run.x), run.count,
-                              {at(system_.diagonal), at(system_.right), at(system_.down),
-                               at(system_.down_right), at(system_.down_left), rhs.data()});
-    system_.rhs.segment(run.first, run.count) = Eigen::VectorXf::Map(rhs.data(), run.count).cast<double>();
+  double gather_row(int y, EquationRows& equations) const {
+    double energy = 0;
+    for_each_run(problem_.grid, y, [&](const PixelRun& run) {
+      const int x = run.x - problem_.grid.box.x;
+      const kernels::EntryRow entries = system_.stencil.entries(x, y);
+      float* rhs = system_.rhs.data() + system_.stencil.at(x, y);
+      kernels::gather_equations(equations.row(y - 1, run.x), equations.row(y, run.x),
+                                equations.row(y + 1, run.x), run.count, entries, rhs);
+      energy += prior_.add(run.first, run.count, entries.diagonal, rhs);
+    });
+    return energy;
   }
 
   const DepthProblem& problem_;
   ZetaImage image_;
+  PriorTerm prior_;
   bool turning_;
   DepthSystem& system_;
 };
+
+/// Fills a system for a step from zeta. @return the energy at zeta
+double assemble(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization,
+                DepthSystem& system) {
+  const double energy = Assembly(problem, zeta, linearization, system).run();
+  system.cell_weight = problem.prior.cell_weight;
+  system.curvature = {};
+  if (problem.curvature.empty()) return energy;
+  add_curvature(problem.grid, problem.curvature, zeta, system);
+  return energy + curvature_energy(problem.grid, problem.curvature, zeta);
+}
 
 }  // namespace
 
@@ -144,40 +176,47 @@ CornerWeights corner_weights(const PixelGrid& grid, const CornerList& corners,
 
 double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta) {
   const ZetaImage image(problem.grid, zeta);
-  const double photometric = sum_over_runs(problem.grid, [&](int y, const PixelRun& run) {
-    return kernels::weighted_energy(image.run(problem.corners, y, run), tensor_run(problem.tensors, run),
-                                    weights_of(problem.corner_weight, run));
-  });
-  const double smoothness =
-      problem.curvature.empty() ? 0 : curvature_energy(problem.grid, problem.curvature, zeta);
-  return photometric + prior_energy(problem.prior, zeta) + smoothness;
+  const PriorTerm prior(problem.prior, zeta);
+  const auto of_row = [&](int y) {
+    double photometric = 0, of_prior = 0;
+    for_each_run(problem.grid, y, [&](const PixelRun& run) {
+      photometric += static_cast<double>(
+          kernels::weighted_energy(image.run(problem.corners, y, run), tensor_run(problem.tensors, run),
+                                   weights_of(problem.corner_weight, run)));
+      of_prior += prior.energy(run.first, run.count);
+    });
+    return photometric + of_prior;
+  };
+  const double energy = prior.shared_energy() + sum_over_strips(problem.grid, [&](int begin, int end) {
+                          double sum = 0;
+                          for (int y = begin; y < end; ++y) sum += of_row(y);
+                          return sum;
+                        });
+  return problem.curvature.empty() ? energy
+                                   : energy + curvature_energy(problem.grid, problem.curvature, zeta);
 }
 
 DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
                          Linearization linearization) {
-  DepthSystem system(problem.grid.size());
-  const Assembly assembly(problem, zeta, linearization, system);
-  for_each_strip(problem.grid, [&](int begin, int end) { assembly.add_rows(begin, end); });
-  add_prior(problem.prior, zeta, system);
-  if (!problem.curvature.empty()) {
-    system.curvature = problem.curvature;
-    system.rhs -= curvature_product(problem.grid, problem.curvature, zeta);
-  }
+  DepthSystem system(problem.grid);
+  assemble(problem, zeta, linearization, system);
   return system;
 }
 
 DepthStepReport depth_step(const DepthProblem& problem, const DepthOptions& options, DepthSolver& solver,
                            Eigen::VectorXd& zeta) {
   DepthStepReport report;
-  report.energy_before = report.energy_after = depth_energy(problem, zeta);
+  DepthSystem system = solver.reuse_system();
+  report.energy_before = report.energy_after = assemble(problem, zeta, options.linearization, system);
   Eigen::VectorXd step;
-  report.solved = solver.solve(depth_system(problem, zeta, options.linearization), step);
+  report.solved = solver.solve(std::move(system), step);
   if (!report.solved) return report;
+  Eigen::VectorXd candidate;
   for (double length = 1; report.backtracks <= options.max_backtracks; length /= 2, ++report.backtracks) {
-    const Eigen::VectorXd candidate = zeta + length * step;
+    candidate = zeta + length * step;
     report.energy_after = depth_energy(problem, candidate);
     if (report.energy_after <= report.energy_before || options.max_backtracks == 0) {
-      zeta = candidate;
+      zeta.swap(candidate);
       return report;
     }
   }

@@ -22,10 +22,9 @@ constexpr double kTelling = 0.01;  // gain below which shares are not told apart
 bool smooth_sensor(const PixelGrid& grid, const DepthPrior& prior, const CurvaturePrior& curvature,
                    double smoothness, DepthSolver& solver, Eigen::VectorXd& zeta) {
   for (int pass = 0; pass < kPasses; ++pass) {
-    DepthSystem system(grid.size());
-    add_prior(prior, zeta, system);
-    system.curvature = curvature.at(zeta, smoothness);
-    system.rhs -= curvature_product(grid, system.curvature, zeta);
+    DepthSystem system(grid);
+    add_prior(grid, prior, zeta, system);
+    add_curvature(grid, curvature.at(zeta, smoothness), zeta, system);
     Eigen::VectorXd step;
     if (!solver.solve(system, step)) return false;
     zeta += step;

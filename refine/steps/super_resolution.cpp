@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "refine/pixel_blocks.h"
+#include "refine/solver/placement.h"
 
 namespace rakelight {
 
@@ -57,30 +58,65 @@ Eigen::VectorXd cell_means(const DepthCells& cells, const Eigen::VectorXd& zeta)
   return means;
 }
 
-double prior_energy(const DepthPrior& prior, const Eigen::VectorXd& zeta) {
-  const Eigen::VectorXd means = cell_means(prior.cells, zeta);
-  const double of_cells = sum_over_blocks(prior.cells.size(), 0.0, [&](int begin, int end) {
-    const auto of = [&](const Eigen::VectorXd& v) { return v.segment(begin, end - begin).array(); };
-    return (of(prior.cell_weight) * (of(means) - of(prior.cell_target)).square()).sum();
+PriorTerm::PriorTerm(const DepthPrior& prior, const Eigen::VectorXd& zeta)
+    : prior_(prior), zeta_(zeta), single_cells_(prior.cells.size() == static_cast<int>(zeta.size())) {
+  if (single_cells_) return;
+  const DepthCells& cells = prior.cells;
+  const Eigen::VectorXd means = cell_means(cells, zeta);
+  cell_pull_.resize(cells.size());
+  cell_share_.resize(cells.size());
+  shared_energy_ = sum_over_blocks(cells.size(), 0.0, [&](int begin, int end) {
+    double energy = 0;
+    for (int cell = begin; cell < end; ++cell) {
+      const double weight = prior.cell_weight[cell], miss = prior.cell_target[cell] - means[cell];
+      cell_share_[cell] = weight / static_cast<double>(cells.of(cell).size());
+      cell_pull_[cell] = cell_share_[cell] * miss;
+      energy += weight * miss * miss;
+    }
+    return energy;
   });
-  const double of_pixels = sum_over_blocks(static_cast<int>(zeta.size()), 0.0, [&](int begin, int end) {
-    return (zeta.segment(begin, end - begin) - prior.start.segment(begin, end - begin)).squaredNorm();
-  });
-  return of_cells + prior.floor * of_pixels;
 }
 
-void add_prior(const DepthPrior& prior, const Eigen::VectorXd& zeta, DepthSystem& system) {
-  system.cell_weight = prior.cell_weight;
-  const Eigen::VectorXd pull =
-      prior.cell_weight.cwiseProduct(prior.cell_target - cell_means(prior.cells, zeta));
-  for_each_block(static_cast<int>(zeta.size()), [&](int begin, int end) {
-    for (int p = begin; p < end; ++p) {
-      const int cell = prior.cells.cell_of[static_cast<size_t>(p)];
-      system.diagonal[static_cast<size_t>(p)] += static_cast<float>(prior.floor);
-      system.rhs[p] += pull[cell] / static_cast<double>(prior.cells.of(cell).size()) +
-                       prior.floor * (prior.start[p] - zeta[p]);
+double PriorTerm::energy(int first, int count) const {
+  return kernels::prior_energy(run(first), single_cells_, count);
+}
+
+double PriorTerm::add(int first, int count, float* diagonal, float* rhs) const {
+  if (!single_cells_) {
+    for (int k = 0; k < count; ++k) {
+      const int cell = prior_.cells.cell_of[static_cast<size_t>(first + k)];
+      diagonal[k] += static_cast<float>(cell_share_[cell]);
+      rhs[k] += static_cast<float>(cell_pull_[cell]);
     }
-  });
+  }
+  return kernels::add_prior(run(first), single_cells_, count, diagonal, rhs);
+}
+
+kernels::PriorRun PriorTerm::run(int first) const {
+  const double* of_cells[2] = {nullptr, nullptr};
+  if (single_cells_) {  // cells are numbered as their pixels
+    of_cells[0] = prior_.cell_target.data() + first;
+    of_cells[1] = prior_.cell_weight.data() + first;
+  }
+  return {zeta_.data() + first, prior_.start.data() + first, of_cells[0], of_cells[1], prior_.floor};
+}
+
+double prior_energy(const DepthPrior& prior, const Eigen::VectorXd& zeta) {
+  const PriorTerm term(prior, zeta);
+  return term.shared_energy() +
+         sum_over_blocks(static_cast<int>(zeta.size()), 0.0,
+                         [&](int begin, int end) { return term.energy(begin, end - begin); });
+}
+
+void add_prior(const PixelGrid& grid, const DepthPrior& prior, const Eigen::VectorXd& zeta,
+               DepthSystem& system) {
+  system.cell_weight = prior.cell_weight;
+  const PriorTerm term(prior, zeta);
+  const Placement placement(grid);
+  for (const PixelRun& run : grid.runs) {
+    const Eigen::Index i = placement.place(run.first);
+    term.add(run.first, run.count, system.stencil.diagonal.data() + i, system.rhs.data() + i);
+  }
 }
 
 }  // namespace rakelight

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "refine/kernels/prior_kernels.h"
 #include "refine/pixel_grid.h"
 #include "refine/solver/depth_solver.h"
 
@@ -34,7 +35,34 @@ Eigen::VectorXd cell_means(const DepthCells& cells, const Eigen::VectorXd& zeta)
 
 double prior_energy(const DepthPrior& prior, const Eigen::VectorXd& zeta);
 
+/// The prior's energy and equations at zeta, run by run of a grid's pixels.
+class PriorTerm {
+ public:
+  /// prior and zeta must outlive it.
+  PriorTerm(const DepthPrior& prior, const Eigen::VectorXd& zeta);
+
+  /// What belongs to no pixel: the energy of the cells where they are of several pixels.
+  double shared_energy() const { return shared_energy_; }
+
+  /// The other energy of pixels [first, first + count).
+  double energy(int first, int count) const;
+
+  /// Adds the half Hessian's diagonal (K' Lambda K lumped) and the negative half gradient of these pixels.
+  /// @return their energy, as above
+  double add(int first, int count, float* diagonal, float* rhs) const;
+
+ private:
+  kernels::PriorRun run(int first) const;
+
+  const DepthPrior& prior_;
+  const Eigen::VectorXd& zeta_;
+  bool single_cells_;
+  double shared_energy_ = 0;
+  Eigen::VectorXd cell_pull_, cell_share_;  ///< of cells of several pixels: what each gets of the pull and of Lambda
+};
+
 /// Adds the prior's half Hessian and its negative half gradient at zeta.
-void add_prior(const DepthPrior& prior, const Eigen::VectorXd& zeta, DepthSystem& system);
+void add_prior(const PixelGrid& grid, const DepthPrior& prior, const Eigen::VectorXd& zeta,
+               DepthSystem& system);
 
 }  // namespace rakelight

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "refine/solver/depth_solver.h"
+#include "refine/solver/placement.h"
 
 namespace rakelight::test {
 
@@ -18,11 +19,14 @@ inline Eigen::MatrixXd dense_means(const DepthCells& cells) {
   return K;
 }
 
-/// Stencil + K' Lambda K.
+/// S + K' Lambda K.
 inline Eigen::MatrixXd dense_matrix(const PixelGrid& grid, const DepthCells& cells,
                                     const DepthSystem& system) {
   const Eigen::MatrixXd K = dense_means(cells);
-  Eigen::MatrixXd A = K.transpose() * system.cell_weight.asDiagonal() * K;
+  const Eigen::MatrixXd of_cells = K.transpose() * system.cell_weight.asDiagonal() * K;
+  Eigen::MatrixXd A = of_cells;
+  A.diagonal() -= of_cells.rowwise().sum();  // which the stencil has
+  const Placement placement(grid);
   const auto add = [&](int p, int u, int v, float entry) {
     const auto value = static_cast<double>(entry);
     if (u < 0 || v < 0 || u >= grid.index.cols || v >= grid.index.rows || grid.index(v, u) < 0) return;
@@ -30,15 +34,22 @@ inline Eigen::MatrixXd dense_matrix(const PixelGrid& grid, const DepthCells& cel
     A(grid.index(v, u), p) += value;
   };
   for (int p = 0; p < grid.size(); ++p) {
-    const size_t i = static_cast<size_t>(p);
-    const cv::Point at = grid.pixels[i];
-    A(p, p) += static_cast<double>(system.diagonal[i]);
-    add(p, at.x + 1, at.y, system.right[i]);
-    add(p, at.x, at.y + 1, system.down[i]);
-    add(p, at.x + 1, at.y + 1, system.down_right[i]);
-    add(p, at.x - 1, at.y + 1, system.down_left[i]);
+    const cv::Point at = grid.pixels[static_cast<size_t>(p)];
+    const Eigen::Index i = placement.place(p);
+    A(p, p) += static_cast<double>(system.stencil.diagonal[i]);
+    add(p, at.x + 1, at.y, system.stencil.right[i]);
+    add(p, at.x, at.y + 1, system.stencil.down[i]);
+    add(p, at.x + 1, at.y + 1, system.stencil.down_right[i]);
+    add(p, at.x - 1, at.y + 1, system.stencil.down_left[i]);
   }
   return A;
+}
+
+/// The right-hand side, a number a pixel.
+inline Eigen::VectorXd pixel_rhs(const PixelGrid& grid, const DepthSystem& system) {
+  Eigen::VectorXd rhs;
+  Placement(grid).gather(system.rhs, 1, rhs);
+  return rhs;
 }
 
 /// About thirty pixels: a rectangle with a bite, a hole and a pixel that hangs by its side.

@@ -16,19 +16,25 @@ namespace {
 struct RandomSystem {
   PixelGrid grid = test::bitten_grid();
   DepthCells cells = make_cells(grid, 2);
-  DepthSystem system{grid.size()};
+  Placement placement{grid};
+  DepthSystem system{grid};
 
   explicit RandomSystem(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    for (size_t p = 0; p < system.diagonal.size(); ++p) {
-      system.diagonal[p] = static_cast<float>(9 + uniform(random));
-      for (auto* entries : {&system.right, &system.down, &system.down_right, &system.down_left})
-        (*entries)[p] = static_cast<float>(uniform(random));
-      system.rhs[static_cast<Eigen::Index>(p)] = uniform(random);
+    StencilGrid& S = system.stencil;
+    for (int p = 0; p < grid.size(); ++p) {
+      const Eigen::Index i = placement.place(p);
+      S.diagonal[i] = static_cast<float>(9 + uniform(random));
+      for (auto* entries : {&S.right, &S.down, &S.down_right, &S.down_left})
+        (*entries)[i] = static_cast<float>(uniform(random));
+      system.rhs[i] = static_cast<float>(uniform(random));
     }
-    system.cell_weight = Eigen::VectorXd::NullaryExpr(cells.size(), [&] { return 2 + uniform(random); });
+    add_cell_weight(grid, cells,
+                    Eigen::VectorXd::NullaryExpr(cells.size(), [&] { return 2 + uniform(random); }), system);
   }
+
+  Eigen::VectorXd dense_solution() const { return dense().ldlt().solve(test::pixel_rhs(grid, system)); }
 
   Eigen::MatrixXd dense() const { return test::dense_matrix(grid, cells, system); }
 };
@@ -39,7 +45,7 @@ TEST(CholeskyDepthSolver, AgreesWithADenseSolve) {
     const auto solver = make_cholesky_depth_solver(random.grid, random.cells);
     Eigen::VectorXd x;
     ASSERT_TRUE(solver->solve(random.system, x));
-    EXPECT_TRUE(x.isApprox(random.dense().ldlt().solve(random.system.rhs), 1e-10));
+    EXPECT_TRUE(x.isApprox(random.dense_solution(), 1e-10));
   }
 }
 
@@ -48,26 +54,26 @@ TEST(CholeskyDepthSolver, SolvesOneSystemAfterAnother) {
   const auto solver = make_cholesky_depth_solver(random.grid, random.cells);
   Eigen::VectorXd x;
   ASSERT_TRUE(solver->solve(random.system, x));
-  for (float& entry : random.system.diagonal) entry += 5;
+  for (int p = 0; p < random.grid.size(); ++p) random.system.stencil.diagonal[random.placement.place(p)] += 5;
   ASSERT_TRUE(solver->solve(random.system, x));
-  EXPECT_TRUE(x.isApprox(random.dense().ldlt().solve(random.system.rhs), 1e-10));
+  EXPECT_TRUE(x.isApprox(random.dense_solution(), 1e-10));
 }
 
 TEST(CholeskyDepthSolver, RefusesWhatIsNotPositiveDefiniteAndLeavesTheUnknownsAlone) {
   RandomSystem random(2);
   const auto solver = make_cholesky_depth_solver(random.grid, random.cells);
-  random.system.diagonal[7] = -20;
+  random.system.stencil.diagonal[random.placement.place(7)] = -20;
   Eigen::VectorXd x = Eigen::VectorXd::Constant(3, 42.0);
   EXPECT_FALSE(solver->solve(random.system, x));
   EXPECT_EQ(x, Eigen::VectorXd::Constant(3, 42.0));
-  random.system.diagonal[7] = 9;
+  random.system.stencil.diagonal[random.placement.place(7)] = 9;
   EXPECT_TRUE(solver->solve(random.system, x));
 }
 
 TEST(CholeskyDepthSolver, RefusesNumbersThatAreNone) {
   RandomSystem random(2);
   const auto solver = make_cholesky_depth_solver(random.grid, random.cells);
-  random.system.rhs[3] = std::numeric_limits<double>::quiet_NaN();
+  random.system.rhs[random.placement.place(3)] = std::numeric_limits<float>::quiet_NaN();
   Eigen::VectorXd x;
   EXPECT_FALSE(solver->solve(random.system, x));
 }

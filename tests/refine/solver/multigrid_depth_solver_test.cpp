@@ -14,6 +14,7 @@
 #include "refine/solver/multigrid.h"
 #include "refine/steps/curvature_prior.h"
 #include "refine/steps/super_resolution.h"
+#include "tests/refine/dense_system.h"
 
 namespace rakelight {
 namespace {
@@ -37,24 +38,25 @@ struct RoughSystem {
   DepthSystem system;
 
   RoughSystem(int width, int height, int scale, double contrast)
-      : grid(frayed_grid(width, height)), cells(make_cells(grid, scale)), system(grid.size()) {
+      : grid(frayed_grid(width, height)), cells(make_cells(grid, scale)), system(grid) {
+    const Placement placement(grid);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);
-    const auto couple = [&](std::vector<float>& entries, int p, int q) {
+    const auto couple = [&](Eigen::VectorXf& entries, int p, int q) {
       if (q < 0) return;
       const auto strength = static_cast<float>(std::pow(contrast, uniform(random)));
-      entries[static_cast<size_t>(p)] -= strength;
-      system.diagonal[static_cast<size_t>(p)] += strength;
-      system.diagonal[static_cast<size_t>(q)] += strength;
+      entries[placement.place(p)] -= strength;
+      system.stencil.diagonal[placement.place(p)] += strength;
+      system.stencil.diagonal[placement.place(q)] += strength;
     };
     for (int p = 0; p < grid.size(); ++p) {
       const auto i = static_cast<size_t>(p);
-      couple(system.right, p, grid.neighbor[kRight][i]);
-      couple(system.down, p, grid.neighbor[kDown][i]);
-      system.diagonal[i] += 1e-4f;
-      system.rhs[p] = uniform(random) - 0.5;
+      couple(system.stencil.right, p, grid.neighbor[kRight][i]);
+      couple(system.stencil.down, p, grid.neighbor[kDown][i]);
+      system.stencil.diagonal[placement.place(p)] += 1e-4f;
+      system.rhs[placement.place(p)] = static_cast<float>(uniform(random) - 0.5);
     }
-    system.cell_weight = Eigen::VectorXd::Constant(cells.size(), 1e-2);
+    add_cell_weight(grid, cells, Eigen::VectorXd::Constant(cells.size(), 1e-2), system);
   }
 };
 
@@ -99,9 +101,9 @@ TEST(MultigridDepthSolver, SolvesTheLastSystemForAnotherRightHandSide) {
   const auto solver = make_multigrid_depth_solver(rough.grid, rough.cells);
   Eigen::VectorXd first, again, exact;
   ASSERT_TRUE(solver->solve(rough.system, first));
-  const Eigen::VectorXd other = rough.system.rhs.reverse();
+  const Eigen::VectorXd other = test::pixel_rhs(rough.grid, rough.system).reverse();
   ASSERT_TRUE(solver->solve_again(other, again));
-  rough.system.rhs = other;
+  Placement(rough.grid).scatter(other, 1, rough.system.rhs);
   ASSERT_TRUE(make_cholesky_depth_solver(rough.grid, rough.cells)->solve(rough.system, exact));
   EXPECT_LT(relative_difference(again, exact), 1e-3);
   EXPECT_GT(relative_difference(again, first), 0.1);
@@ -123,11 +125,11 @@ TEST(MultigridDepthSolver, GivesTheSameBytesForAnyNumberOfThreads) {
 
 TEST(MultigridDepthSolver, LeavesASystemItCannotSolveToTheExactOne) {
   RoughSystem rough(40, 30, 1, 10);
-  rough.system.diagonal[50] = -5;  // not positive definite: the exact solver refuses it too
+  rough.system.stencil.diagonal[Placement(rough.grid).place(50)] = -5;  // not positive definite: the exact solver refuses it too
   Eigen::VectorXd x = Eigen::VectorXd::Ones(3);
   EXPECT_FALSE(make_multigrid_depth_solver(rough.grid, rough.cells)->solve(rough.system, x));
   EXPECT_EQ(x, Eigen::VectorXd::Ones(3));
-  rough.system.rhs[3] = std::numeric_limits<double>::quiet_NaN();
+  rough.system.rhs[Placement(rough.grid).place(3)] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(make_multigrid_depth_solver(rough.grid, rough.cells)->solve(rough.system, x));
 }
 

@@ -9,6 +9,7 @@
 #include "refine/steps/albedo.h"
 #include "refine/steps/quality.h"
 #include "refine/steps/residual_draws.h"
+#include "tests/refine/dense_system.h"
 #include "tests/refine/exact_surface.h"
 
 namespace rakelight {
@@ -192,9 +193,9 @@ TEST(Uncertainty, PullsOnNormalsBecomeTheRightHandSideThatTheDepthStepMakesOfThe
     pulled.set(k, e);
   }
   const auto rhs = [&](const PhotometricTensors& tensors) {
-    return depth_system({at.missed.sphere.grid, at.corners, tensors, at.weights, at.prior},
-                        at.missed.state.zeta, Linearization::gauss_newton)
-        .rhs;
+    const DepthProblem depth{at.missed.sphere.grid, at.corners, tensors, at.weights, at.prior};
+    return test::pixel_rhs(depth.grid,
+                           depth_system(depth, at.missed.state.zeta, Linearization::gauss_newton));
   };
   const Eigen::VectorXd expected = rhs(pulled) - rhs(at.tensors);
   EXPECT_GT(expected.norm(), 1);
