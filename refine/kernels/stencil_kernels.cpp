@@ -25,7 +25,8 @@ HWY_INLINE V other_rows(const StencilRow& A, const float* x, int i) {
   return hn::MulAdd(load(A.down_left + up + 1), load(x + up + 1), sum);
 }
 
-float multiply_row(const StencilRow& A, const float* x, float* y) {
+template <class Visit>
+HWY_INLINE float multiply_row_and(const StencilRow& A, const float* x, float* y, const Visit& visit) {
   const D d;
   V dot = hn::Zero(d);
   for (int i = 0; i < A.width; i += lanes()) {
@@ -35,8 +36,19 @@ float multiply_row(const StencilRow& A, const float* x, float* y) {
     sum = hn::MulAdd(load(A.right + i - 1), load(x + i - 1), sum);
     hn::StoreU(sum, d, y + i);
     dot = hn::MulAdd(sum, here, dot);
+    visit(i, here);
   }
   return hn::GetLane(hn::SumOfLanes(d, dot));
+}
+
+float multiply_row(const StencilRow& A, const float* x, float* y) {
+  return multiply_row_and(A, x, y, [](int, V) {});
+}
+
+RowProducts multiply_row_and_dot(const StencilRow& A, const float* x, const float* b, float* y) {
+  V bx = hn::Zero(D());
+  const float xAx = multiply_row_and(A, x, y, [&](int i, V here) { bx = hn::MulAdd(load(b + i), here, bx); });
+  return {xAx, hn::GetLane(hn::SumOfLanes(D(), bx))};
 }
 
 void subtract_other_rows(const StencilRow& A, const float* x, const float* r, float* g) {
@@ -140,19 +152,21 @@ float dot_row(const float* a, const float* b, int width) {
   return hn::GetLane(hn::SumOfLanes(d, sum));
 }
 
-void add_row(const float* x, float factor, int width, float* y) {
+void shorten_row(const float* q, float length, int width, float* r) {
   const D d;
-  const V f = hn::Set(d, factor);
-  for (int i = 0; i < width; i += lanes()) hn::StoreU(hn::MulAdd(f, load(x + i), load(y + i)), d, y + i);
+  const V l = hn::Set(d, length);
+  for (int i = 0; i < width; i += lanes()) hn::StoreU(hn::NegMulAdd(l, load(q + i), load(r + i)), d, r + i);
 }
 
-void turn_row(const float* z, float factor, float share, int width, float* sum, float* direction) {
+void step_row(const GradientRow& row, float last, float share, float length, int width) {
   const D d;
-  const V f = hn::Set(d, factor), s = hn::Set(d, share);
+  const V before = hn::Set(d, last), s = hn::Set(d, share), l = hn::Set(d, length);
   for (int i = 0; i < width; i += lanes()) {
-    const V old = load(direction + i);
-    hn::StoreU(hn::MulAdd(f, old, load(sum + i)), d, sum + i);
-    hn::StoreU(hn::MulAdd(s, old, load(z + i)), d, direction + i);
+    const V p = load(row.p + i), q = hn::MulAdd(s, load(row.q + i), load(row.Az + i));
+    hn::StoreU(hn::MulAdd(before, p, load(row.x + i)), d, row.x + i);
+    hn::StoreU(hn::MulAdd(s, p, load(row.z + i)), d, row.p + i);
+    hn::StoreU(q, d, row.q + i);
+    hn::StoreU(hn::NegMulAdd(l, q, load(row.r + i)), d, row.r + i);
   }
 }
 
@@ -267,19 +281,24 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rakelight::kernels {
 HWY_EXPORT(multiply_row);
+HWY_EXPORT(multiply_row_and_dot);
 HWY_EXPORT(subtract_other_rows);
 HWY_EXPORT(restrict_row);
 HWY_EXPORT(prolong_row);
 HWY_EXPORT(collapse_rows);
 HWY_EXPORT(collapse_along);
 HWY_EXPORT(dot_row);
-HWY_EXPORT(add_row);
-HWY_EXPORT(turn_row);
+HWY_EXPORT(shorten_row);
+HWY_EXPORT(step_row);
 HWY_EXPORT(factorize_lines);
 HWY_EXPORT(solve_lines);
 
 float multiply_row(const StencilRow& A, const float* x, float* y) {
   return HWY_DYNAMIC_DISPATCH(multiply_row)(A, x, y);
+}
+
+RowProducts multiply_row(const StencilRow& A, const float* x, const float* b, float* y) {
+  return HWY_DYNAMIC_DISPATCH(multiply_row_and_dot)(A, x, b, y);
 }
 
 void subtract_other_rows(const StencilRow& A, const float* x, const float* r, float* g) {
@@ -305,12 +324,12 @@ void collapse_along(const BandRow& itself, const BandRow& to_next, int coarse_wi
 
 float dot_row(const float* a, const float* b, int width) { return HWY_DYNAMIC_DISPATCH(dot_row)(a, b, width); }
 
-void add_row(const float* x, float factor, int width, float* y) {
-  HWY_DYNAMIC_DISPATCH(add_row)(x, factor, width, y);
+void shorten_row(const float* q, float length, int width, float* r) {
+  HWY_DYNAMIC_DISPATCH(shorten_row)(q, length, width, r);
 }
 
-void turn_row(const float* z, float factor, float share, int width, float* sum, float* direction) {
-  HWY_DYNAMIC_DISPATCH(turn_row)(z, factor, share, width, sum, direction);
+void step_row(const GradientRow& row, float last, float share, float length, int width) {
+  HWY_DYNAMIC_DISPATCH(step_row)(row, last, share, length, width);
 }
 
 float factorize_lines(const float* const (&diagonal)[kLines], const float* const (&right)[kLines], int width,

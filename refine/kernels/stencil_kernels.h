@@ -21,6 +21,12 @@ struct StencilRow {
 /// y = A x in this row. @return x . y of the row
 float multiply_row(const StencilRow& A, const float* x, float* y);
 
+/// The same, and b . x of the row.
+struct RowProducts {
+  float xAx, bx;
+};
+RowProducts multiply_row(const StencilRow& A, const float* x, const float* b, float* y);
+
 /// g = r - what the rows above and below add to A x; r null: zeros.
 void subtract_other_rows(const StencilRow& A, const float* x, const float* r, float* g);
 
@@ -51,11 +57,16 @@ void collapse_along(const BandRow& itself, const BandRow& to_next, int coarse_wi
 /// Sum of a b over a row.
 float dot_row(const float* a, const float* b, int width);
 
-/// y += factor x
-void add_row(const float* x, float factor, int width, float* y);
+/// r -= length q
+void shorten_row(const float* q, float length, int width, float* r);
 
-/// sum += factor direction, then direction = z + share direction.
-void turn_row(const float* z, float factor, float share, int width, float* sum, float* direction);
+/// One step of conjugate gradients' vectors (refine/solver/multigrid_depth_solver.cpp), after a step of length `last`:
+/// x += last p, p = z + share p, q = Az + share q, r -= length q.
+struct GradientRow {
+  const float *z, *Az;
+  float *x, *p, *q, *r;
+};
+void step_row(const GradientRow& row, float last, float share, float length, int width);
 
 /// The tridiagonal matrices of that many rows are factorised and solved side by side, because each step along a row waits for
 /// the one before it.

@@ -3,6 +3,7 @@
 #include "refine/solver/line_solver.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rakelight {
 namespace {
@@ -57,30 +58,35 @@ void LineSolver::group_rows(const GridLayout& grid) {
     seams_[which].clear();
     add_groups(seams[which], seams_[which]);
   }
+  nowhere_.assign(static_cast<size_t>(grid.stride()), 0.0f);
+  least_of_strip_.resize(strips_.size());
   factors_.resize(groups_ * static_cast<size_t>(columns_ * kernels::kLineFactors));
 }
 
-float LineSolver::factorize_group(const StencilGrid& A, const Group& group, const float* nowhere) {
-  const float *diagonal[kLines], *right[kLines];
-  point_at_rows(A, group, {0, A.height}, A.diagonal.data(), nowhere, diagonal);
-  point_at_rows(A, group, {0, A.height}, A.right.data(), nowhere, right);
-  return kernels::factorize_lines(diagonal, right, A.width, factors_of(group));
+void LineSolver::prepare(const GridLayout& grid) {
+  if (!(grouped_ == grid)) group_rows(grid);
 }
 
-bool LineSolver::factorize(const StencilGrid& A) {
-  if (!(grouped_ == A.layout())) group_rows(A);
-  const std::vector<float> nowhere(static_cast<size_t>(A.stride()));
-  std::vector<float> least(strips_.size() + 1, 1.0f);
-  const auto factorize_all = [&](const std::vector<Group>& groups, float& lowest) {
-    for (const Group& group : groups)
-      lowest = std::min(lowest, factorize_group(A, group, nowhere.data()));
-  };
-  for_row_strips(A, [&](int begin, int) {
-    const auto strip = static_cast<size_t>(begin / kGridStrip);
-    for (const auto& groups : strips_[strip]) factorize_all(groups, least[strip]);
-  });
-  for (const auto& groups : seams_) factorize_all(groups, least.back());
-  return *std::min_element(least.begin(), least.end()) > 0.0f;
+float LineSolver::least_pivot(const StencilGrid& A, const std::vector<Group>& groups) {
+  float least = 1;
+  for (const Group& group : groups) {
+    const float *diagonal[kLines], *right[kLines];
+    point_at_rows(A, group, {0, A.height}, A.diagonal.data(), std::as_const(nowhere_).data(), diagonal);
+    point_at_rows(A, group, {0, A.height}, A.right.data(), std::as_const(nowhere_).data(), right);
+    least = std::min(least, kernels::factorize_lines(diagonal, right, A.width, factors_of(group)));
+  }
+  return least;
+}
+
+void LineSolver::factorize_strip(const StencilGrid& A, int begin) {
+  const auto strip = static_cast<size_t>(begin / kGridStrip);
+  least_of_strip_[strip] = std::min(least_pivot(A, strips_[strip][even]), least_pivot(A, strips_[strip][odd]));
+}
+
+bool LineSolver::factorize_seams(const StencilGrid& A) {
+  float least = *std::min_element(least_of_strip_.begin(), least_of_strip_.end());
+  for (const auto& groups : seams_) least = std::min(least, least_pivot(A, groups));
+  return least > 0.0f;
 }
 
 void LineSolver::solve(const StencilGrid& A, const Group& group, cv::Range range, Workspace& workspace,

@@ -36,8 +36,12 @@ class LineSolver {
     std::vector<float> scratch_, nowhere_;  ///< zeros, which stay zeros
   };
 
-  /// Groups the rows and factorises them. @return false when a row is seen not to be positive definite
-  bool factorize(const StencilGrid& A);
+  /// Groups the rows; then every strip is to be factorised, side by side if you like, and the seams.
+  void prepare(const GridLayout& grid);
+  void factorize_strip(const StencilGrid& A, int begin);
+
+  /// @return false when a row of a strip or seam is seen not to be positive definite
+  bool factorize_seams(const StencilGrid& A);
 
   /// x = inv(T_y) x in the rows of a group that are in `rows`.
   void solve(const StencilGrid& A, const Group& group, cv::Range rows, Workspace& workspace,
@@ -55,7 +59,7 @@ class LineSolver {
  private:
   void group_rows(const GridLayout& grid);
   void add_groups(const std::vector<int>& rows, std::vector<Group>& groups);
-  float factorize_group(const StencilGrid& A, const Group& group, const float* nowhere);
+  float least_pivot(const StencilGrid& A, const std::vector<Group>& groups);
   float* factors_of(const Group& group) {
     return factors_.data() + group.number * static_cast<size_t>(columns_ * kernels::kLineFactors);
   }
@@ -66,7 +70,8 @@ class LineSolver {
   size_t groups_ = 0;
   std::vector<std::array<std::vector<Group>, 2>> strips_;
   std::array<std::vector<Group>, 3> seams_;
-  std::vector<float> factors_;
+  std::vector<float> nowhere_;  ///< zeros: a row that a group does not have
+  std::vector<float> factors_, least_of_strip_;
 };
 
 }  // namespace rakelight

@@ -31,16 +31,16 @@ kernels::StencilRow row_or_zeros(const StencilGrid& grid, int y, const float* ze
   return {zeros, zeros, zeros, zeros, zeros, 0, grid.width};
 }
 
-void make_coarser(const StencilGrid& fine, StencilGrid& coarse) {
-  for_row_strips(coarse, [&](int begin, int end) {
-    RowBuffers rows(fine, 6);
-    const kernels::BandRow itself{nullptr, rows[1], rows[2]}, to_next{rows[3], rows[4], rows[5]};
-    for (int y = begin; y < end; ++y) {
-      kernels::collapse_rows(row_or_zeros(fine, 2 * y - 1, rows[0]), row_or_zeros(fine, 2 * y, rows[0]),
-                             row_or_zeros(fine, 2 * y + 1, rows[0]), itself, to_next);
-      kernels::collapse_along(itself, to_next, coarse.width, coarse.entries(0, y));
-    }
-  });
+/// Rows of the coarser stencil at the fine rows [begin, end), begin even.
+void make_coarser(const StencilGrid& fine, int begin, int end, StencilGrid& coarse) {
+  RowBuffers rows(fine, 6);
+  const kernels::BandRow itself{nullptr, rows[1], rows[2]}, to_next{rows[3], rows[4], rows[5]};
+  const int coarse_end = end == fine.height ? coarse.height : end / 2;
+  for (int y = begin / 2; y < coarse_end; ++y) {
+    kernels::collapse_rows(row_or_zeros(fine, 2 * y - 1, rows[0]), row_or_zeros(fine, 2 * y, rows[0]),
+                           row_or_zeros(fine, 2 * y + 1, rows[0]), itself, to_next);
+    kernels::collapse_along(itself, to_next, coarse.width, coarse.entries(0, y));
+  }
 }
 
 /// Gauss-Seidel on one level. A pass over it is done strip by strip, then at the seams between the strips.
@@ -85,6 +85,26 @@ class Relaxation {
 
   /// Adds the coarse correction to the even rows, relaxes odd rows (whatever they hold) and even rows.
   void correct_and_relax(const StencilGrid& coarse, const VectorXf& correction) const {
+    correct_and_relax(coarse, correction, [](int, int) {});
+  }
+
+  /// The same, and then Ax = A x on the way. @return x' A x and r' x
+  Products correct_relax_and_multiply(const StencilGrid& coarse, const VectorXf& correction,
+                                      VectorXf& Ax) const {
+    ProductsOfRows products(A_);
+    correct_and_relax(coarse, correction, [&](int begin, int end) {
+      for (int y = begin; y < end; ++y) products.multiply(A_, y, x_, r_, Ax);
+    });
+    return products.sum();
+  }
+
+ private:
+  using Group = LineSolver::Group;
+
+  /// @param finished  called as finished(first row, last row + 1) for rows that are done, with their neighbours
+  template <class Finished>
+  void correct_and_relax(const StencilGrid& coarse, const VectorXf& correction,
+                         const Finished& finished) const {
     for_row_strips(A_, [&](int begin, int end) {
       LineSolver::Workspace workspace(A_);
       for (int y = begin; y < end; y += 2) {
@@ -92,17 +112,18 @@ class Relaxation {
         kernels::prolong_row(correction.data() + coarse.at(0, y / 2), A_.diagonal.data() + i, A_.width,
                              x_.data() + i);
       }
+      const cv::Range inner = away_from_seams(begin, end);
       relax(lines_.in_strip(begin, odd), {begin, end}, false, workspace);
-      relax(lines_.in_strip(begin, even), away_from_seams(begin, end), false, workspace);
+      relax(lines_.in_strip(begin, even), inner, false, workspace);
+      finished(inner.start, end == A_.height ? end : inner.end - 1);
     });
     for_seams([&](size_t k, LineSolver::Workspace& workspace) {
       for (const auto rows : {LineSolver::seam_odd, LineSolver::seam_above, LineSolver::seam_below})
         relax(lines_.seams(rows)[k], {0, A_.height}, false, workspace);
+      for (const int y : lines_.seams(LineSolver::seam_odd)[k].rows)
+        if (y >= 0) finished(y - 2, std::min(y + 3, A_.height));
     });
   }
-
- private:
-  using Group = LineSolver::Group;
 
   void relax(const std::vector<Group>& groups, cv::Range rows, bool first_visit,
              LineSolver::Workspace& workspace) const {
@@ -153,6 +174,12 @@ class Relaxation {
   VectorXf& x_;
 };
 
+Products products_of(const StencilGrid& A, const VectorXf& r, const VectorXf& x, VectorXf& Ax) {
+  ProductsOfRows products(A);
+  for_rows(A, [&](int y) { products.multiply(A, y, x, r, Ax); });
+  return products.sum();
+}
+
 }  // namespace
 
 void Multigrid::shape_levels() {
@@ -172,8 +199,14 @@ bool Multigrid::setup(const StencilGrid& finest) {
   finest_ = &finest;
   shape_levels();
   for (size_t k = 0; k < levels_.size(); ++k) {
-    if (k > 0) make_coarser(stencil(k - 1), levels_[k].own);
-    if (!levels_[k].lines.factorize(stencil(k))) return false;
+    const StencilGrid& A = stencil(k);
+    LineSolver& lines = levels_[k].lines;
+    lines.prepare(A);
+    for_row_strips(A, [&](int begin, int end) {
+      lines.factorize_strip(A, begin);
+      if (k + 1 < levels_.size()) make_coarser(A, begin, end, levels_[k + 1].own);
+    });
+    if (!lines.factorize_seams(A)) return false;
   }
   return factorize_coarsest();
 }
@@ -211,24 +244,37 @@ bool Multigrid::factorize_coarsest() {
 
 void Multigrid::apply(const VectorXf& r, VectorXf& z) {
   if (z.size() != finest_->size()) z = VectorXf::Zero(finest_->size());
-  cycle(0, r, z);
+  cycle(0, r, z, nullptr);
 }
 
-void Multigrid::cycle(size_t number, const VectorXf& r, VectorXf& x) {
-  if (number + 1 == levels_.size()) return solve_coarsest(r, x);
+Products Multigrid::apply(const VectorXf& r, VectorXf& z, VectorXf& Az) {
+  for (VectorXf* vector : {&z, &Az})
+    if (vector->size() != finest_->size()) *vector = VectorXf::Zero(finest_->size());
+  return cycle(0, r, z, &Az);
+}
+
+/// @param Ax A x afterwards, unless null  @return x' A x and r' x, unless Ax is null
+Products Multigrid::cycle(size_t number, const VectorXf& r, VectorXf& x, VectorXf* Ax) {
+  const StencilGrid& A = stencil(number);
+  if (number + 1 == levels_.size()) {
+    solve_coarsest(r, x);
+    return Ax == nullptr ? Products() : products_of(A, r, x, *Ax);
+  }
   Level& next = levels_[number + 1];
-  const Relaxation level(stencil(number), levels_[number].lines, r, x);
+  const Relaxation level(A, levels_[number].lines, r, x);
   for (int sweep = 1; sweep < sweeps_; ++sweep) {
     level.relax(even, sweep == 1);
     level.relax(odd, false);
   }
   level.relax_and_restrict(sweeps_ == 1, next.own, next.r);
-  cycle(number + 1, next.r, next.x);
+  cycle(number + 1, next.r, next.x, nullptr);
+  if (sweeps_ == 1 && Ax != nullptr) return level.correct_relax_and_multiply(next.own, next.x, *Ax);
   level.correct_and_relax(next.own, next.x);
   for (int sweep = 1; sweep < sweeps_; ++sweep) {
     level.relax(odd, false);
     level.relax(even, false);
   }
+  return Ax == nullptr ? Products() : products_of(A, r, x, *Ax);
 }
 
 void Multigrid::solve_coarsest(const VectorXf& r, VectorXf& x) const {

@@ -31,7 +31,8 @@ class Multigrid {
   /// z = M r with M symmetric positive definite, close to inv(A). @param z of size() with zeros in its borders, or empty
   void apply(const Eigen::VectorXf& r, Eigen::VectorXf& z);
 
-  const StencilGrid& finest() const { return *finest_; }
+  /// The same, and Az = A z. @return z' A z and r' z
+  Products apply(const Eigen::VectorXf& r, Eigen::VectorXf& z, Eigen::VectorXf& Az);
 
  private:
   struct Level {
@@ -43,7 +44,7 @@ class Multigrid {
   const StencilGrid& stencil(size_t level) const { return level == 0 ? *finest_ : levels_[level].own; }
   void shape_levels();
   bool factorize_coarsest();
-  void cycle(size_t level, const Eigen::VectorXf& r, Eigen::VectorXf& x);
+  Products cycle(size_t level, const Eigen::VectorXf& r, Eigen::VectorXf& x, Eigen::VectorXf* Ax);
   void solve_coarsest(const Eigen::VectorXf& r, Eigen::VectorXf& x) const;
 
   int sweeps_ = 1;

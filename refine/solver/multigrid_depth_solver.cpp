@@ -26,10 +26,11 @@ class MultigridDepthSolver final : public DepthSolver {
         placement_(grid),
         single_cells_(cells.size() == grid.size()),
         residual_(placement_.zeros()),
-        solution_(residual_),
         preconditioned_(residual_),
+        product_(residual_),
+        solution_(residual_),
         direction_(residual_),
-        product_(residual_) {
+        image_(residual_) {
     if (single_cells_) return;
     for (const int p : cells.pixels) cell_places_.push_back(static_cast<int>(placement_.place(p)));
   }
@@ -73,13 +74,17 @@ class MultigridDepthSolver final : public DepthSolver {
   /// The right-hand side is scaled to 1: a float's range then never matters.
   static double inverse_or_zero(double scale) { return scale > 0 ? 1 / scale : 0; }
 
-  /// product = A direction with the exact K' Lambda K. @return direction . product
-  double multiply() {
-    const double lumped = last_->stencil.multiply(direction_, product_);
-    if (single_cells_ && curvature_.empty()) return lumped;
-    if (!curvature_.empty()) curvature_.add_product(last_->stencil, direction_, product_);
+  /// Preconditions the residual, and multiplies by the system with the exact K' Lambda K.
+  Products precondition_and_multiply() {
+    Products products = multigrid_.apply(residual_, preconditioned_, product_);
+    if (single_cells_ && curvature_.empty()) return products;
+    if (!curvature_.empty()) {
+      last_->stencil.multiply(preconditioned_, product_);
+      curvature_.add_product(last_->stencil, preconditioned_, product_);
+    }
     if (!single_cells_) replace_lumped_cells();
-    return dot(direction_, product_);
+    products.xAx = dot(preconditioned_, product_);
+    return products;
   }
 
   /// Each cell's own block of K' Lambda K instead of its lumped sum.
@@ -90,11 +95,11 @@ class MultigridDepthSolver final : public DepthSolver {
         const size_t count = cells_.of(cell).size();
         const int* places = cell_places_.data() + first;
         float mean = 0;
-        for (size_t k = 0; k < count; ++k) mean += direction_[places[k]];
+        for (size_t k = 0; k < count; ++k) mean += preconditioned_[places[k]];
         const auto size = static_cast<float>(count);
         const float share = static_cast<float>(last_->cell_weight[cell]) / size;
         for (size_t k = 0; k < count; ++k)
-          product_[places[k]] += share * (mean / size - direction_[places[k]]);
+          product_[places[k]] += share * (mean / size - preconditioned_[places[k]]);
       }
     });
   }
@@ -106,50 +111,76 @@ class MultigridDepthSolver final : public DepthSolver {
     });
   }
 
-  /// sum += factor v
-  void add(const VectorXf& v, float factor, VectorXf& sum) const {
+  template <class Body>
+  void for_placed_rows(const Body& body) const {
     const GridLayout& rows = placement_.layout();
-    for_rows(rows, [&](int y) {
-      const Eigen::Index i = rows.at(0, y);
-      kernels::add_row(v.data() + i, factor, rows.width, sum.data() + i);
-    });
+    for_rows(rows, [&](int y) { body(rows.at(0, y), rows.width); });
   }
 
-  /// solution += length direction; direction = preconditioned + share direction
-  void advance_and_turn(float length, float share) {
-    const GridLayout& rows = placement_.layout();
-    for_rows(rows, [&](int y) {
-      const Eigen::Index i = rows.at(0, y);
-      kernels::turn_row(preconditioned_.data() + i, length, share, rows.width, solution_.data() + i,
-                        direction_.data() + i);
-    });
-  }
-
-  /// Solves for the residual, of size 1, times scale. @return false, x untouched, when it does not converge
+  /// Solves for the residual, of size 1, times scale: preconditioned conjugate gradients in the form of Chronopoulos and Gear,
+  /// where only preconditioned vectors are multiplied, each while it is in the cache:
+  ///   p' = z + share p,  q' = A p' = A z + share q,  p' q' = z' A z - share^2 p q.
+  /// The last step, which by the rate so far reaches the tolerance, is taken without looking at its result.
+  /// @return false, x untouched, when it does not converge
   bool conjugate_gradients(double scale, Eigen::VectorXd& x) {
-    solution_.setZero();
-    direction_.setZero();
+    if (!std::isfinite(scale)) return false;
     multigrid_.set_sweeps(1);
-    multigrid_.apply(residual_, preconditioned_);
-    double rz = dot(residual_, preconditioned_);
-    const double target = tolerance_ * tolerance_ * rz;
-    float length = 0, share = 0;
-    for (int step = 0; rz > target; ++step) {
-      advance_and_turn(length, share);
-      const double curvature = multiply();
-      if (step == kMostSteps || !(curvature > 0)) return false;
-      length = static_cast<float>(rz / curvature);
-      add(product_, -length, residual_);
+    double target = 0, rz_before = 0, pq = 0;
+    float last = 0;  // length of the step before
+    for (int step = 0; step <= kMostSteps; ++step) {
+      const Products at = precondition_and_multiply();
+      const double rz = at.bx;
+      if (step == 0) target = tolerance_ * tolerance_ * rz;
+      if (!std::isfinite(rz)) return false;
+      if (rz <= target) return finish(step, last, 0, scale, x);
+      const bool anew = step == 0 || step == kSlow + 1;  // another preconditioner
+      const double share = anew ? 0 : rz / rz_before;
+      pq = at.xAx - share * share * pq;
+      if (!(pq > 0)) return false;
+      const auto length = static_cast<float>(rz / pq), turned = static_cast<float>(share);
+      if (!anew && rz * share <= target) return finish(step, last + length * turned, length, scale, x);
+      if (step == 0)
+        begin(length);
+      else
+        proceed(step, last, turned, length);
       if (step == kSlow) multigrid_.set_sweeps(2);
-      multigrid_.apply(residual_, preconditioned_);
-      const double next = dot(residual_, preconditioned_);
-      share =
-          step == kSlow ? 0 : static_cast<float>(next / rz);  // another preconditioner: directions start anew
-      rz = next;
+      last = length;
+      rz_before = rz;
     }
-    if (!std::isfinite(rz) || !std::isfinite(scale)) return false;
-    add(direction_, length, solution_);
-    placement_.gather(solution_, scale, x);
+    return false;
+  }
+
+  /// The first step's vectors.
+  void begin(float length) {
+    direction_.swap(preconditioned_);
+    image_.swap(product_);
+    for_placed_rows([&](Eigen::Index i, int width) {
+      kernels::shorten_row(image_.data() + i, length, width, residual_.data() + i);
+    });
+  }
+
+  /// Those of any other.
+  void proceed(int step, float last, float share, float length) {
+    if (step == 1) solution_.setZero();
+    for_placed_rows([&](Eigen::Index i, int width) {
+      kernels::step_row({preconditioned_.data() + i, product_.data() + i, solution_.data() + i,
+                         direction_.data() + i, image_.data() + i, residual_.data() + i},
+                        last, share, length, width);
+    });
+  }
+
+  /// x = scale (solution + along direction + aside preconditioned)
+  bool finish(int step, float along, float aside, double scale, Eigen::VectorXd& x) const {
+    if (step == 0) {
+      x = Eigen::VectorXd::Zero(grid_.size());
+    } else {
+      placement_.gather(
+          [&](Eigen::Index i) {
+            const float moved = along * direction_[i] + aside * preconditioned_[i];
+            return scale * static_cast<double>(step == 1 ? moved : solution_[i] + moved);
+          },
+          x);
+    }
     return true;
   }
 
@@ -163,7 +194,8 @@ class MultigridDepthSolver final : public DepthSolver {
   bool set_up_ = false;  ///< the last system has a preconditioner
   StencilGrid bounded_;  ///< with second differences: what the preconditioner is made of
   SecondDifferences curvature_;
-  VectorXf residual_, solution_, preconditioned_, direction_, product_;
+  VectorXf residual_, preconditioned_, product_;  ///< r, z, A z
+  VectorXf solution_, direction_, image_;         ///< x, p, A p
   std::unique_ptr<DepthSolver> exact_;
   std::optional<DepthSystem> last_;
   bool exact_has_last_ = false;

@@ -31,9 +31,15 @@ class Placement {
 
   /// The opposite.
   void gather(const Eigen::VectorXf& placed, double factor, Eigen::VectorXd& pixels) const {
+    gather([&](Eigen::Index i) { return factor * static_cast<double>(placed[i]); }, pixels);
+  }
+
+  /// The number that value(place) gives for each pixel.
+  template <class Value>
+  void gather(const Value& value, Eigen::VectorXd& pixels) const {
     pixels.resize(grid_.size());
     for_each_run([&](int p, Eigen::Index i, int count) {
-      for (int k = 0; k < count; ++k) pixels[p + k] = factor * static_cast<double>(placed[i + k]);
+      for (int k = 0; k < count; ++k) pixels[p + k] = value(i + k);
     });
   }
 

@@ -33,4 +33,13 @@ double StencilGrid::multiply(const Eigen::VectorXf& x, Eigen::VectorXf& y) const
   });
 }
 
+Products ProductsOfRows::sum() const {
+  Products sum;
+  for (const kernels::RowProducts& row : rows_) {
+    sum.xAx += static_cast<double>(row.xAx);
+    sum.bx += static_cast<double>(row.bx);
+  }
+  return sum;
+}
+
 }  // namespace rakelight

@@ -43,6 +43,29 @@ struct StencilGrid : GridLayout {
   double multiply(const Eigen::VectorXf& x, Eigen::VectorXf& y) const;
 };
 
+/// Products of vectors over a grid.
+struct Products {
+  double xAx = 0, bx = 0;
+};
+
+/// Products row by row, added up in the rows' order.
+class ProductsOfRows {
+ public:
+  explicit ProductsOfRows(const GridLayout& grid) : rows_(static_cast<size_t>(grid.height)) {}
+
+  /// y = A x in row y. Adds x' A x and b' x of the row.
+  void multiply(const StencilGrid& A, int row, const Eigen::VectorXf& x, const Eigen::VectorXf& b,
+                Eigen::VectorXf& y) {
+    const Eigen::Index i = A.at(0, row);
+    rows_[static_cast<size_t>(row)] = kernels::multiply_row(A.row(row), x.data() + i, b.data() + i, y.data() + i);
+  }
+
+  Products sum() const;
+
+ private:
+  std::vector<kernels::RowProducts> rows_;
+};
+
 constexpr int kGridStrip = 32;  ///< rows that are worked on together; even
 
 /// Calls body(k) for k = 0, 1, ..., count - 1, in parallel where the grid is worth it.

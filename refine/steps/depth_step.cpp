@@ -145,17 +145,6 @@ class Assembly {
   DepthSystem& system_;
 };
 
-/// Fills a system for a step from zeta. @return the energy at zeta
-double assemble(const DepthProblem& problem, const Eigen::VectorXd& zeta, Linearization linearization,
-                DepthSystem& system) {
-  const double energy = Assembly(problem, zeta, linearization, system).run();
-  system.cell_weight = problem.prior.cell_weight;
-  system.curvature = {};
-  if (problem.curvature.empty()) return energy;
-  add_curvature(problem.grid, problem.curvature, zeta, system);
-  return energy + curvature_energy(problem.grid, problem.curvature, zeta);
-}
-
 }  // namespace
 
 CornerWeights corner_weights(const PixelGrid& grid, const CornerList& corners,
@@ -196,10 +185,20 @@ double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta) {
                                    : energy + curvature_energy(problem.grid, problem.curvature, zeta);
 }
 
+double fill_depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
+                         Linearization linearization, DepthSystem& system) {
+  const double energy = Assembly(problem, zeta, linearization, system).run();
+  system.cell_weight = problem.prior.cell_weight;
+  system.curvature = {};
+  if (problem.curvature.empty()) return energy;
+  add_curvature(problem.grid, problem.curvature, zeta, system);
+  return energy + curvature_energy(problem.grid, problem.curvature, zeta);
+}
+
 DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
                          Linearization linearization) {
   DepthSystem system(problem.grid);
-  assemble(problem, zeta, linearization, system);
+  fill_depth_system(problem, zeta, linearization, system);
   return system;
 }
 
@@ -207,7 +206,7 @@ DepthStepReport depth_step(const DepthProblem& problem, const DepthOptions& opti
                            Eigen::VectorXd& zeta) {
   DepthStepReport report;
   DepthSystem system = solver.reuse_system();
-  report.energy_before = report.energy_after = assemble(problem, zeta, options.linearization, system);
+  report.energy_before = report.energy_after = fill_depth_system(problem, zeta, options.linearization, system);
   Eigen::VectorXd step;
   report.solved = solver.solve(std::move(system), step);
   if (!report.solved) return report;

@@ -55,6 +55,10 @@ double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta);
 DepthSystem depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
                          Linearization linearization);
 
+/// The same in the memory of an earlier system of this grid. @return the energy at zeta, as depth_energy has it
+double fill_depth_system(const DepthProblem& problem, const Eigen::VectorXd& zeta,
+                         Linearization linearization, DepthSystem& system);
+
 struct DepthStepReport {
   bool solved = false;
   double energy_before = 0, energy_after = 0;

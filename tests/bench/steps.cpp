@@ -52,7 +52,8 @@ std::function<void()> solve_to(const std::shared_ptr<Middle>& m, int digits) {
       make_multigrid_depth_solver(m->problem.grid, m->problem.prior.cells, std::pow(10.0, -digits));
   return [m, solver] {
     Eigen::VectorXd step;
-    solver->solve(*m->system, step);
+    solver->solve(std::move(*m->system), step);
+    *m->system = solver->reuse_system();
   };
 }
 
@@ -82,7 +83,7 @@ std::vector<Step> iteration_steps() {
       {"corner weights", pixels * (kTensor + kCornerWeights + kZeta), 8,
        [m] { corner_weights(m->problem.grid, m->problem.corners, m->tensors, m->state.zeta, kEdgeWeight); }},
       {"system", pixels * (kTensor + kCornerWeights + kZeta + kSystem), 20,
-       [m] { depth_system(*m->depth, m->state.zeta, Linearization::gauss_newton); }},
+       [m] { fill_depth_system(*m->depth, m->state.zeta, Linearization::gauss_newton, *m->system); }},
       {"energy", pixels * (kTensor + kCornerWeights + kZeta), 8,
        [m] { depth_energy(*m->depth, m->state.zeta); }},
       {"solve to 1e-2", pixels * kSolve, 16, solve_to(m, 2)},
