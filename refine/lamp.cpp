@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "refine/kernels/depth_kernels.h"
 #include "refine/pixel_blocks.h"
 
 namespace rakelight {
@@ -11,17 +12,16 @@ namespace rakelight {
 Eigen::Matrix3Xf surface_points(const PixelGrid& grid, const Eigen::VectorXd& zeta) {
   const Camera& camera = grid.camera;
   Eigen::Matrix3Xf points(3, grid.size());
-  for_each_block(grid.size(), [&](int begin, int end) {
-    const double origin = zeta[begin];  // floats hold the rest: 1e-7 of the depth
-    const Eigen::ArrayXf rest = (zeta.segment(begin, end - begin).array() - origin).cast<float>();
-    const Eigen::ArrayXf ratio = rest.exp();
-    const auto scale = static_cast<float>(std::exp(origin));
-    const auto fx = static_cast<float>(1 / camera.fx), fy = static_cast<float>(1 / camera.fy);
-    for (int p = begin; p < end; ++p) {
-      const cv::Point& pixel = grid.pixels[static_cast<size_t>(p)];
-      const float z = scale * ratio[p - begin];
-      points.col(p) << static_cast<float>(pixel.x - camera.cx) * fx * z,
-          static_cast<float>(pixel.y - camera.cy) * fy * z, z;
+  cv::parallel_for_(cv::Range(0, static_cast<int>(grid.runs.size())), [&](const cv::Range& range) {
+    for (int k = range.start; k < range.end; ++k) {
+      const PixelRun& run = grid.runs[static_cast<size_t>(k)];
+      const double origin = zeta[run.first];  // floats hold the rest: 1e-7 of the depth
+      const double y = grid.pixels[static_cast<size_t>(run.first)].y - camera.cy;
+      const kernels::RayRun rays{static_cast<float>((run.x - camera.cx) / camera.fx),
+                                 static_cast<float>(y / camera.fy), static_cast<float>(1 / camera.fx),
+                                 run.count};
+      kernels::ray_points(rays, zeta.data() + run.first, origin, static_cast<float>(std::exp(origin)),
+                          points.data() + 3 * std::ptrdiff_t{run.first});
     }
   });
   return points;

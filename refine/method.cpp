@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "refine/kernels/depth_kernels.h"
 #include "refine/pixel_blocks.h"
 
 namespace rakelight {
@@ -21,11 +22,7 @@ SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& op
 
 double rms_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
   const double sum = sum_over_blocks(static_cast<int>(before.size()), 0.0, [&](int begin, int end) {
-    const auto first = before.segment(begin, end - begin), last = after.segment(begin, end - begin);
-    const Eigen::ArrayXf middle = (0.5 * (first + last)).cast<float>(), turn = (last - first).cast<float>();
-    const auto part =
-        static_cast<double>((middle.exp() * turn).square().sum());  // z'' - z' = z (zeta'' - zeta') + O(cube)
-    return part;
+    return kernels::squared_depth_change(before.data() + begin, after.data() + begin, end - begin);
   });
   return 1e3 * std::sqrt(sum / static_cast<double>(before.size()));
 }

@@ -134,7 +134,8 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     noise = measured_errors(problem, state, t, t <= kWarmUp ? model_error : report.residual_scale);
     prior.cell_weight = sensor_weight(options.depth, noise) * problem.prior.cell_weight;
     const double edge_weight = t > kWarmUp ? options.trust.edge_weight : 0;
-    weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
+    if (t == 1 || edge_weight > 0)
+      weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
     const DepthProblem depth{problem.grid, problem.corners, tensors, weights, prior};
     const DepthStepReport step = depth_step(depth, options.depth, *solver, state.zeta);  // Eq. (32), (34)
 

@@ -211,10 +211,16 @@ struct Columns {
   }
 };
 
+/// Where few fine pixels hang on more coarse ones, as at a frayed rim, the coarse matrix is singular though the fine one is not,
+/// and rounding puts its pivots on either side of zero. A pivot below the first share of its diagonal is raised to it, which
+/// keeps the solve positive definite; only one below minus the second speaks of a matrix that is not.
+constexpr float kLeastPivot = 1e-5f, kRounding = 1e-3f;
+
 float factorize_lines(const float* const (&diagonal)[kLines], const float* const (&right)[kLines], int width,
                       float* factors) {
   const Across d;
   const VA none = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VA rounding = hn::Set(d, kRounding), raised = hn::Set(d, kLeastPivot);
   VA least = one, coupling[kVectors], multiplier[kVectors];
   for (int part = 0; part < kVectors; ++part) coupling[part] = multiplier[part] = none;
   for (int column = 0; column < width; column += kAcross) {
@@ -226,10 +232,11 @@ float factorize_lines(const float* const (&diagonal)[kLines], const float* const
       for (int part = 0; part < kVectors; ++part) {
         const VA entry = center.at[part][k];
         const VA pivot = hn::NegMulAdd(coupling[part], multiplier[part], entry);
-        const auto inside = hn::Ne(entry, none);
-        least = hn::Min(least, hn::IfThenElse(inside, pivot, one));
-        const auto sound = hn::And(inside, hn::Gt(pivot, none));
-        const VA inverse = hn::IfThenElseZero(sound, hn::Div(one, hn::IfThenElse(sound, pivot, one)));
+        const VA seen = hn::IfThenElse(hn::Ne(entry, none), hn::MulAdd(rounding, entry, pivot), one);
+        least = hn::Min(least, seen);
+        const auto sound = hn::Gt(entry, none);
+        const VA safe = hn::IfThenElse(sound, hn::Max(pivot, hn::Mul(raised, entry)), one);
+        const VA inverse = hn::IfThenElseZero(sound, hn::Div(one, safe));
         coupling[part] = next.at[part][k];
         multiplier[part] = hn::Mul(coupling[part], inverse);
         hn::StoreU(multiplier[part], d, to + kAcross * part);

@@ -74,7 +74,8 @@ constexpr int kLines = 8;
 constexpr int kLineFactors = 2 * kLines;  ///< numbers a column
 
 /// L D L' of the rows' tridiagonal matrices. Rows are readable up to a multiple of 4 columns, zeros past the last.
-/// @param factors  kLineFactors a column, columns rounded up to 4  @return the least pivot, 1 at most
+/// @param factors  kLineFactors a column, columns rounded up to 4
+/// @return 1 at most, not positive when a pivot is clearly negative
 float factorize_lines(const float* const (&diagonal)[kLines], const float* const (&right)[kLines], int width,
                       float* factors);
 
