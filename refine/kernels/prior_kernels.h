@@ -8,8 +8,8 @@ namespace rakelight::kernels {
 
 /// Pointers to a run's first pixel.
 struct PriorRun {
-  const double *zeta, *start;    ///< log depth
-  const double *target, *weight; ///< of cells of one pixel each; not read otherwise
+  const double *zeta, *start;     ///< log depth
+  const double *target, *weight;  ///< of cells of one pixel each; not read otherwise
   double floor;
 };
 

@@ -247,16 +247,15 @@ float factorize_lines(const float* const (&diagonal)[kLines], const float* const
   return hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-void solve_lines(const float* factors, int width, float* const (&rows)[kLines], float* scratch) {
+void solve_lines(const float* factors, int width, const float* const (&right_sides)[kLines],
+                 float* const (&rows)[kLines], float* scratch) {
   const Across d;
   const int columns = (width + kAcross - 1) / kAcross * kAcross;
-  const float* read[kLines];
-  std::copy_n(rows, kLines, read);
   VA last[kVectors], multiplier[kVectors];
   for (int part = 0; part < kVectors; ++part) last[part] = multiplier[part] = hn::Zero(d);
   for (int column = 0; column < columns; column += kAcross) {
     Columns r;
-    r.load(read, column);
+    r.load(right_sides, column);
     for (int k = 0; k < kAcross; ++k) {
       for (int part = 0; part < kVectors; ++part) {
         last[part] = hn::NegMulAdd(multiplier[part], last[part], r.at[part][k]);
@@ -273,8 +272,7 @@ void solve_lines(const float* factors, int width, float* const (&rows)[kLines], 
       for (int part = 0; part < kVectors; ++part) {
         const VA y = hn::LoadU(d, scratch + (column + k) * kLines + kAcross * part);
         const VA scaled = hn::Mul(y, hn::LoadU(d, factor + kLines + kAcross * part));
-        x.at[part][k] = last[part] =
-            hn::NegMulAdd(hn::LoadU(d, factor + kAcross * part), last[part], scaled);
+        x.at[part][k] = last[part] = hn::NegMulAdd(hn::LoadU(d, factor + kAcross * part), last[part], scaled);
       }
     }
     x.store(rows, column);
@@ -329,7 +327,9 @@ void collapse_along(const BandRow& itself, const BandRow& to_next, int coarse_wi
   HWY_DYNAMIC_DISPATCH(collapse_along)(itself, to_next, coarse_width, coarse);
 }
 
-float dot_row(const float* a, const float* b, int width) { return HWY_DYNAMIC_DISPATCH(dot_row)(a, b, width); }
+float dot_row(const float* a, const float* b, int width) {
+  return HWY_DYNAMIC_DISPATCH(dot_row)(a, b, width);
+}
 
 void shorten_row(const float* q, float length, int width, float* r) {
   HWY_DYNAMIC_DISPATCH(shorten_row)(q, length, width, r);
@@ -344,8 +344,9 @@ float factorize_lines(const float* const (&diagonal)[kLines], const float* const
   return HWY_DYNAMIC_DISPATCH(factorize_lines)(diagonal, right, width, factors);
 }
 
-void solve_lines(const float* factors, int width, float* const (&rows)[kLines], float* scratch) {
-  HWY_DYNAMIC_DISPATCH(solve_lines)(factors, width, rows, scratch);
+void solve_lines(const float* factors, int width, const float* const (&right_sides)[kLines],
+                 float* const (&rows)[kLines], float* scratch) {
+  HWY_DYNAMIC_DISPATCH(solve_lines)(factors, width, right_sides, rows, scratch);
 }
 
 }  // namespace rakelight::kernels

@@ -79,7 +79,9 @@ constexpr int kLineFactors = 2 * kLines;  ///< numbers a column
 float factorize_lines(const float* const (&diagonal)[kLines], const float* const (&right)[kLines], int width,
                       float* factors);
 
-/// Solves for the rows in their place. @param scratch kLines numbers a column, columns rounded up to 4
-void solve_lines(const float* factors, int width, float* const (&rows)[kLines], float* scratch);
+/// Solves for the rows, which may be the right-hand sides themselves.
+/// @param scratch kLines numbers a column, columns rounded up to 4
+void solve_lines(const float* factors, int width, const float* const (&right_sides)[kLines],
+                 float* const (&rows)[kLines], float* scratch);
 
 }  // namespace rakelight::kernels

@@ -40,7 +40,7 @@ struct DepthCells {
 
 /// Symmetric system (S + K' diag(cell_weight) K + C) x = rhs, C of second differences (refine/solver/curvature.h).
 struct DepthSystem {
-  StencilGrid stencil;          ///< S, and on the diagonal the row sums of K' diag(cell_weight) K (its lumped form)
+  StencilGrid stencil;  ///< S, and on the diagonal the row sums of K' diag(cell_weight) K (its lumped form)
   Eigen::VectorXd cell_weight;  ///< Lambda, a number a cell
   CurvatureWeights curvature;
   Eigen::VectorXf rhs;  ///< laid out as the stencil (refine/solver/placement.h), 0 outside the mask

@@ -80,7 +80,8 @@ float LineSolver::least_pivot(const StencilGrid& A, const std::vector<Group>& gr
 
 void LineSolver::factorize_strip(const StencilGrid& A, int begin) {
   const auto strip = static_cast<size_t>(begin / kGridStrip);
-  least_of_strip_[strip] = std::min(least_pivot(A, strips_[strip][even]), least_pivot(A, strips_[strip][odd]));
+  least_of_strip_[strip] =
+      std::min(least_pivot(A, strips_[strip][even]), least_pivot(A, strips_[strip][odd]));
 }
 
 bool LineSolver::factorize_seams(const StencilGrid& A) {
@@ -90,10 +91,12 @@ bool LineSolver::factorize_seams(const StencilGrid& A) {
 }
 
 void LineSolver::solve(const StencilGrid& A, const Group& group, cv::Range range, Workspace& workspace,
-                       Eigen::VectorXf& x) const {
+                       const Eigen::VectorXf& b, Eigen::VectorXf& x) const {
+  const float* right_sides[kLines];
   float* rows[kLines];
+  point_at_rows(A, group, range, b.data(), std::as_const(workspace.nowhere_).data(), right_sides);
   point_at_rows(A, group, range, x.data(), workspace.nowhere_.data(), rows);
-  kernels::solve_lines(factors_of(group), A.width, rows, workspace.scratch_.data());
+  kernels::solve_lines(factors_of(group), A.width, right_sides, rows, workspace.scratch_.get());
 }
 
 }  // namespace rakelight

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "refine/solver/stencil_grid.h"
 
@@ -28,12 +29,13 @@ class LineSolver {
   class Workspace {
    public:
     explicit Workspace(const GridLayout& grid)
-        : scratch_(static_cast<size_t>(grid.stride() * kernels::kLines)),
+        : scratch_(new float[static_cast<size_t>(grid.stride() * kernels::kLines)]),
           nowhere_(static_cast<size_t>(grid.stride())) {}
 
    private:
     friend class LineSolver;
-    std::vector<float> scratch_, nowhere_;  ///< zeros, which stay zeros
+    std::unique_ptr<float[]> scratch_;
+    std::vector<float> nowhere_;  ///< zeros, which stay zeros: in place of a row that a group does not have
   };
 
   /// Groups the rows; then every strip is to be factorised, side by side if you like, and the seams.
@@ -43,9 +45,9 @@ class LineSolver {
   /// @return false when a row of a strip or seam is seen not to be positive definite
   bool factorize_seams(const StencilGrid& A);
 
-  /// x = inv(T_y) x in the rows of a group that are in `rows`.
+  /// x = inv(T_y) b in the rows of a group that are in `rows`; b may be x.
   void solve(const StencilGrid& A, const Group& group, cv::Range rows, Workspace& workspace,
-             Eigen::VectorXf& x) const;
+             const Eigen::VectorXf& b, Eigen::VectorXf& x) const;
 
   /// Rows of the strip that begins at row `begin`; the odd ones without the last where another strip follows.
   const std::vector<Group>& in_strip(int begin, Color color) const {
@@ -63,7 +65,9 @@ class LineSolver {
   float* factors_of(const Group& group) {
     return factors_.data() + group.number * static_cast<size_t>(columns_ * kernels::kLineFactors);
   }
-  const float* factors_of(const Group& group) const { return const_cast<LineSolver*>(this)->factors_of(group); }
+  const float* factors_of(const Group& group) const {
+    return const_cast<LineSolver*>(this)->factors_of(group);
+  }
 
   GridLayout grouped_;
   int columns_ = 0;

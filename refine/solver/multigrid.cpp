@@ -16,8 +16,7 @@ constexpr Index kCoarsestCells = 256;
 class RowBuffers {
  public:
   RowBuffers(const GridLayout& grid, int count)
-      : stride_(grid.stride() + 6 * kernels::kRowAlign),
-        values_(static_cast<size_t>(stride_ * count)) {}
+      : stride_(grid.stride() + 6 * kernels::kRowAlign), values_(static_cast<size_t>(stride_ * count)) {}
   float* operator[](int k) { return values_.data() + k * stride_ + kernels::kRowAlign; }
 
  private:
@@ -131,15 +130,13 @@ class Relaxation {
   }
 
   void relax(const Group& group, cv::Range rows, bool first_visit, LineSolver::Workspace& workspace) const {
+    if (first_visit) return lines_.solve(A_, group, rows, workspace, r_, x_);
     for (const int y : group.rows) {
       if (y < rows.start || y >= rows.end) continue;
       const Index i = A_.at(0, y);
-      if (first_visit)
-        std::copy_n(r_.data() + i, A_.width, x_.data() + i);
-      else
-        kernels::subtract_other_rows(A_.row(y), x_.data() + i, r_.data() + i, x_.data() + i);
+      kernels::subtract_other_rows(A_.row(y), x_.data() + i, r_.data() + i, x_.data() + i);
     }
-    lines_.solve(A_, group, rows, workspace, x_);
+    lines_.solve(A_, group, rows, workspace, x_, x_);
   }
 
   /// Even rows of a strip whose odd neighbours are all in the strip.

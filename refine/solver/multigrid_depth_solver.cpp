@@ -14,7 +14,9 @@ namespace {
 using Eigen::VectorXf;
 
 constexpr int kMostSteps =
-    200;                   // 2 to 20 without second differences; what needs more is left to the exact solver
+    200;  // 2 to 20 without second differences; what needs more is left to the exact solver
+constexpr double kSteady =
+    0.03;  // fall of the squared residual in a step that the next one may be counted on to repeat
 constexpr int kSlow = 20;  // steps after which the preconditioner smooths twice
 
 class MultigridDepthSolver final : public DepthSolver {
@@ -120,7 +122,8 @@ class MultigridDepthSolver final : public DepthSolver {
   /// Solves for the residual, of size 1, times scale: preconditioned conjugate gradients in the form of Chronopoulos and Gear,
   /// where only preconditioned vectors are multiplied, each while it is in the cache:
   ///   p' = z + share p,  q' = A p' = A z + share q,  p' q' = z' A z - share^2 p q.
-  /// The last step, which by the rate so far reaches the tolerance, is taken without looking at its result.
+  /// Where they converge fast, the last step, which by the rate so far reaches the tolerance, is taken without looking at its
+  /// result: with cells of several pixels rates vary too much for that.
   /// @return false, x untouched, when it does not converge
   bool conjugate_gradients(double scale, Eigen::VectorXd& x) {
     if (!std::isfinite(scale)) return false;
@@ -138,7 +141,8 @@ class MultigridDepthSolver final : public DepthSolver {
       pq = at.xAx - share * share * pq;
       if (!(pq > 0)) return false;
       const auto length = static_cast<float>(rz / pq), turned = static_cast<float>(share);
-      if (!anew && rz * share <= target) return finish(step, last + length * turned, length, scale, x);
+      if (!anew && share < kSteady && rz * share <= target)
+        return finish(step, last + length * turned, length, scale, x);
       if (step == 0)
         begin(length);
       else

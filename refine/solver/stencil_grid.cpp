@@ -28,9 +28,8 @@ kernels::EntryRow StencilGrid::entries(int x, int y) {
 
 double StencilGrid::multiply(const Eigen::VectorXf& x, Eigen::VectorXf& y) const {
   if (y.size() != size()) y = Eigen::VectorXf::Zero(size());
-  return sum_over_rows(*this, [&](int v) {
-    return kernels::multiply_row(row(v), x.data() + at(0, v), y.data() + at(0, v));
-  });
+  return sum_over_rows(
+      *this, [&](int v) { return kernels::multiply_row(row(v), x.data() + at(0, v), y.data() + at(0, v)); });
 }
 
 Products ProductsOfRows::sum() const {

@@ -57,7 +57,8 @@ class ProductsOfRows {
   void multiply(const StencilGrid& A, int row, const Eigen::VectorXf& x, const Eigen::VectorXf& b,
                 Eigen::VectorXf& y) {
     const Eigen::Index i = A.at(0, row);
-    rows_[static_cast<size_t>(row)] = kernels::multiply_row(A.row(row), x.data() + i, b.data() + i, y.data() + i);
+    rows_[static_cast<size_t>(row)] =
+        kernels::multiply_row(A.row(row), x.data() + i, b.data() + i, y.data() + i);
   }
 
   Products sum() const;

@@ -51,7 +51,7 @@ class EquationRows {
   /// The box's row y, from column x on.
   kernels::EquationRow row(int y, int x) {
     const size_t slot = static_cast<size_t>((y + 3) % 3);
-    float* begin = values_.data() + slot * kParts * stride_ + 1 + static_cast<size_t>(x - left_);
+    float* begin = values_.data() + slot * kParts * stride_ + static_cast<size_t>(x - left_ + 1);
     const auto part = [&](size_t k) { return begin + k * stride_; };
     return {{part(0), part(1)},
             {part(2), part(3)},
@@ -60,10 +60,12 @@ class EquationRows {
             {part(8), part(9), part(10), part(11)}};
   }
 
-  void clear(int y) {
-    const size_t row = kParts * stride_;
-    std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>((y + 3) % 3) * row), row,
-                0.0f);
+  /// Zeros in the columns [begin, end) of row y: there are no pixels.
+  void clear(int y, int begin, int end) {
+    const kernels::EquationRow at = row(y, begin);
+    for (float* part : {at.xx[0], at.xx[1], at.yy[0], at.yy[1], at.bx[0], at.bx[1], at.by[0], at.by[1],
+                        at.xy[0], at.xy[1], at.xy[2], at.xy[3]})
+      std::fill_n(part, end - begin, 0.0f);
   }
 
  private:
@@ -77,9 +79,8 @@ class EquationRows {
 template <class Body>
 double sum_over_strips(const PixelGrid& grid, const Body& body) {
   std::vector<double> sums(static_cast<size_t>(grid.box.height / kRowStrip + 1), 0.0);
-  for_each_strip(grid, [&](int begin, int end) {
-    sums[static_cast<size_t>(begin / kRowStrip)] = body(begin, end);
-  });
+  for_each_strip(
+      grid, [&](int begin, int end) { sums[static_cast<size_t>(begin / kRowStrip)] = body(begin, end); });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
@@ -114,14 +115,19 @@ class Assembly {
   }
 
   double compute_row(int y, EquationRows& equations) const {
-    equations.clear(y);
+    const cv::Rect box = problem_.grid.box;
     double energy = 0;
-    if (y < 0 || y >= problem_.grid.box.height) return energy;
-    for_each_run(problem_.grid, y, [&](const PixelRun& run) {
-      energy += static_cast<double>(kernels::corner_equations(
-          image_.run(problem_.corners, y, run), tensor_run(problem_.tensors, run),
-          weights_of(problem_.corner_weight, run), turning_, equations.row(y, run.x)));
-    });
+    int cleared = box.x - 1;
+    if (y >= 0 && y < box.height) {
+      for_each_run(problem_.grid, y, [&](const PixelRun& run) {
+        equations.clear(y, cleared, run.x);  // what the run before may have written past its end, too
+        energy += static_cast<double>(kernels::corner_equations(
+            image_.run(problem_.corners, y, run), tensor_run(problem_.tensors, run),
+            weights_of(problem_.corner_weight, run), turning_, equations.row(y, run.x)));
+        cleared = run.x + run.count;
+      });
+    }
+    equations.clear(y, cleared, box.x + box.width + 1);
     return energy;
   }
 
@@ -169,9 +175,9 @@ double depth_energy(const DepthProblem& problem, const Eigen::VectorXd& zeta) {
   const auto of_row = [&](int y) {
     double photometric = 0, of_prior = 0;
     for_each_run(problem.grid, y, [&](const PixelRun& run) {
-      photometric += static_cast<double>(
-          kernels::weighted_energy(image.run(problem.corners, y, run), tensor_run(problem.tensors, run),
-                                   weights_of(problem.corner_weight, run)));
+      photometric += static_cast<double>(kernels::weighted_energy(image.run(problem.corners, y, run),
+                                                                  tensor_run(problem.tensors, run),
+                                                                  weights_of(problem.corner_weight, run)));
       of_prior += prior.energy(run.first, run.count);
     });
     return photometric + of_prior;
@@ -206,7 +212,8 @@ DepthStepReport depth_step(const DepthProblem& problem, const DepthOptions& opti
                            Eigen::VectorXd& zeta) {
   DepthStepReport report;
   DepthSystem system = solver.reuse_system();
-  report.energy_before = report.energy_after = fill_depth_system(problem, zeta, options.linearization, system);
+  report.energy_before = report.energy_after =
+      fill_depth_system(problem, zeta, options.linearization, system);
   Eigen::VectorXd step;
   report.solved = solver.solve(std::move(system), step);
   if (!report.solved) return report;

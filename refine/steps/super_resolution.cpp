@@ -103,9 +103,9 @@ kernels::PriorRun PriorTerm::run(int first) const {
 
 double prior_energy(const DepthPrior& prior, const Eigen::VectorXd& zeta) {
   const PriorTerm term(prior, zeta);
-  return term.shared_energy() +
-         sum_over_blocks(static_cast<int>(zeta.size()), 0.0,
-                         [&](int begin, int end) { return term.energy(begin, end - begin); });
+  return term.shared_energy() + sum_over_blocks(static_cast<int>(zeta.size()), 0.0, [&](int begin, int end) {
+           return term.energy(begin, end - begin);
+         });
 }
 
 void add_prior(const PixelGrid& grid, const DepthPrior& prior, const Eigen::VectorXd& zeta,

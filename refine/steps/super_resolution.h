@@ -58,7 +58,8 @@ class PriorTerm {
   const Eigen::VectorXd& zeta_;
   bool single_cells_;
   double shared_energy_ = 0;
-  Eigen::VectorXd cell_pull_, cell_share_;  ///< of cells of several pixels: what each gets of the pull and of Lambda
+  Eigen::VectorXd cell_pull_,
+      cell_share_;  ///< of cells of several pixels: what each gets of the pull and of Lambda
 };
 
 /// Adds the prior's half Hessian and its negative half gradient at zeta.

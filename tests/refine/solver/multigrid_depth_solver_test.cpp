@@ -109,6 +109,32 @@ TEST(MultigridDepthSolver, SolvesTheLastSystemForAnotherRightHandSide) {
   EXPECT_GT(relative_difference(again, first), 0.1);
 }
 
+/// Gives the solver's memory the system's numbers.
+DepthSystem refilled(DepthSolver& solver, const DepthSystem& system) {
+  DepthSystem memory = solver.reuse_system();
+  memory = system;
+  return memory;
+}
+
+TEST(MultigridDepthSolver, ReusedOverChangingSystemsGivesWhatAFreshOneGives) {
+  for (const int scale : {1, 2}) {
+    const RoughSystem first(150, 110, scale, 30), wild(150, 110, scale, 1e3);
+    RoughSystem curved(150, 110, scale, 10), broken = first;
+    curved.system.curvature = reachable_differences(curved.grid, {}, {});
+    broken.system.stencil.diagonal[Placement(broken.grid).place(50)] = -5;
+    const auto reused = make_multigrid_depth_solver(first.grid, first.cells);
+    Eigen::VectorXd x;
+    EXPECT_TRUE(reused->solve(first.system, x));
+    EXPECT_FALSE(reused->solve(refilled(*reused, broken.system), x));
+    for (const RoughSystem* each : std::initializer_list<const RoughSystem*>{&curved, &wild, &first}) {
+      Eigen::VectorXd again, fresh;
+      ASSERT_TRUE(reused->solve(refilled(*reused, each->system), again));
+      ASSERT_TRUE(make_multigrid_depth_solver(each->grid, each->cells)->solve(each->system, fresh));
+      EXPECT_EQ(again, fresh) << "scale " << scale;
+    }
+  }
+}
+
 TEST(MultigridDepthSolver, GivesTheSameBytesForAnyNumberOfThreads) {
   const RoughSystem rough(300, 200, 2, 30);
   const auto solve_with = [&](int threads) {
@@ -125,7 +151,8 @@ TEST(MultigridDepthSolver, GivesTheSameBytesForAnyNumberOfThreads) {
 
 TEST(MultigridDepthSolver, LeavesASystemItCannotSolveToTheExactOne) {
   RoughSystem rough(40, 30, 1, 10);
-  rough.system.stencil.diagonal[Placement(rough.grid).place(50)] = -5;  // not positive definite: the exact solver refuses it too
+  rough.system.stencil.diagonal[Placement(rough.grid).place(50)] =
+      -5;  // not positive definite: the exact solver refuses it too
   Eigen::VectorXd x = Eigen::VectorXd::Ones(3);
   EXPECT_FALSE(make_multigrid_depth_solver(rough.grid, rough.cells)->solve(rough.system, x));
   EXPECT_EQ(x, Eigen::VectorXd::Ones(3));
@@ -146,18 +173,67 @@ StencilGrid laplacian(int width, int height, float more) {
   return A;
 }
 
-TEST(Multigrid, IsSymmetric) {
-  const StencilGrid A = laplacian(45, 38, 0.01f);
+void expect_symmetric(int height, int sweeps) {
+  const StencilGrid A = laplacian(45, height, 0.01f);
   Multigrid multigrid;
+  multigrid.set_sweeps(sweeps);
   ASSERT_TRUE(multigrid.setup(A));
   Eigen::VectorXf a = Eigen::VectorXf::Zero(A.size()), b = a, Ma, Mb;
   for (int k = 0; k < 200; ++k) {
-    a[A.at(k % 45, (k * 7) % 38)] = static_cast<float>(k % 13) - 6;
-    b[A.at((k * 11) % 45, k % 38)] = static_cast<float>(k % 7) - 3;
+    a[A.at(k % 45, (k * 7) % height)] = static_cast<float>(k % 13) - 6;
+    b[A.at((k * 11) % 45, k % height)] = static_cast<float>(k % 7) - 3;
   }
   multigrid.apply(a, Ma);
   multigrid.apply(b, Mb);
-  EXPECT_NEAR(a.dot(Mb) / b.dot(Ma), 1, 1e-4);
+  EXPECT_NEAR(a.dot(Mb) / b.dot(Ma), 1, 1e-4) << height << " rows, " << sweeps << " sweeps";
+}
+
+TEST(Multigrid, IsSymmetric) {
+  for (const int height : {5, 31, 38, 64, 65, 130, 600})  // one strip of rows, a seam, several
+    for (const int sweeps : {1, 2}) expect_symmetric(height, sweeps);
+}
+
+TEST(Multigrid, MultipliesWhatItGives) {
+  for (const int height : {3, 38, 64, 97, 330}) {
+    const StencilGrid A = laplacian(45, height, 0.01f);
+    Multigrid multigrid;
+    ASSERT_TRUE(multigrid.setup(A));
+    Eigen::VectorXf r = Eigen::VectorXf::Zero(A.size()), z, alone, Az, expected;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < 45; ++x) r[A.at(x, y)] = std::sin(static_cast<float>(3 * x + 7 * y * y));
+    const Products products = multigrid.apply(r, z, Az);
+    multigrid.apply(r, alone);
+    EXPECT_EQ(z, alone);
+    const double zAz = A.multiply(z, expected);
+    EXPECT_TRUE(Az.isApprox(expected, 1e-6f)) << height;
+    EXPECT_NEAR(products.xAx, zAz, 1e-5 * zAz);
+    const double rz = r.cast<double>().dot(z.cast<double>());
+    EXPECT_NEAR(products.bx, rz, 1e-5 * rz);
+  }
+}
+
+TEST(LineSolver, SolvesTheRowsTridiagonalSystems) {
+  for (const int height : {1, 7, 33, 70}) {
+    const StencilGrid A = laplacian(21, height, 0.1f);
+    LineSolver lines;
+    lines.prepare(A);
+    for (int begin = 0; begin < height; begin += kGridStrip) lines.factorize_strip(A, begin);
+    ASSERT_TRUE(lines.factorize_seams(A));
+    StencilGrid T = A;
+    T.down.setZero();
+    Eigen::VectorXf truth = Eigen::VectorXf::Zero(A.size()), b, x = truth;
+    for (int y = 0; y < height; ++y)
+      for (int u = 0; u < A.width; ++u) truth[A.at(u, y)] = static_cast<float>((u * 5 + y * 3) % 7);
+    T.multiply(truth, b);
+    LineSolver::Workspace workspace(A);
+    for (int begin = 0; begin < height; begin += kGridStrip)
+      for (const Color color : {even, odd})
+        for (const auto& group : lines.in_strip(begin, color))
+          lines.solve(A, group, {0, height}, workspace, b, x);
+    for (const auto& group : lines.seams(LineSolver::seam_odd))
+      lines.solve(A, group, {0, height}, workspace, b, x);
+    EXPECT_TRUE(x.isApprox(truth, 1e-5f)) << height;
+  }
 }
 
 /// A pixel between the coarse ones hangs on two or four of them: their matrix is singular, and rounding may make it worse.
@@ -170,9 +246,7 @@ TEST(Multigrid, TakesMasksWithLonelyPixels) {
   Eigen::VectorXf r = (A.diagonal.array() > 0).select(Eigen::VectorXf::Ones(A.size()), 0.0f), z;
   multigrid.apply(r, z);
   for (Eigen::Index i = 0; i < A.size(); ++i) {
-    if (A.diagonal[i] > 0) {
-      EXPECT_NEAR(z[i] * A.diagonal[i], 1, 1e-3f);
-    }
+    if (A.diagonal[i] > 0) { EXPECT_NEAR(z[i] * A.diagonal[i], 1, 1e-3f); }
   }
 }
 

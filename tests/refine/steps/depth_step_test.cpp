@@ -8,6 +8,7 @@
 
 #include <random>
 
+#include "refine/steps/curvature_prior.h"
 #include "tests/refine/dense_system.h"
 #include "tests/refine/exact_surface.h"
 
@@ -187,6 +188,34 @@ TEST(DepthSystem, ItsRightSideIsMinusHalfTheEnergysGradient) {
     const Eigen::VectorXd h = 2e-4 * Eigen::VectorXd::Unit(zeta.size(), p);
     const double slope = (depth_energy(problem, zeta + h) - depth_energy(problem, zeta - h)) / 4e-4;
     EXPECT_NEAR(-2 * rhs[p], slope, 2e-3 * rhs.norm()) << "pixel " << p;
+  }
+}
+
+TEST(DepthSystem, ComesWithTheEnergyAndIsTheSameInUsedMemory) {
+  for (const int scale : {1, 2}) {
+    RandomProblem random(6);
+    DepthPrior prior = random.problem().prior;
+    const DepthProblem plain = random.problem();
+    prior.cells = make_cells(plain.grid, scale);
+    prior.cell_weight = 3 + random.vector(prior.cells.size(), 2).array();
+    prior.cell_target = random.vector(prior.cells.size(), 0.02);
+    CurvatureWeights curvature = reachable_differences(plain.grid, {}, {});
+    const DepthProblem problem{plain.grid,          plain.corners, plain.tensors,
+                               plain.corner_weight, prior,         curvature};
+    const Eigen::VectorXd zeta = random.vector(plain.grid.size(), 0.02);
+    DepthSystem used = depth_system(plain, random.vector(plain.grid.size(), 0.1), Linearization::fixed_point);
+    for (const DepthProblem* each : {&problem, &plain}) {
+      EXPECT_DOUBLE_EQ(fill_depth_system(*each, zeta, Linearization::gauss_newton, used),
+                       depth_energy(*each, zeta));
+      const DepthSystem fresh = depth_system(*each, zeta, Linearization::gauss_newton);
+      EXPECT_EQ(used.rhs, fresh.rhs);
+      EXPECT_EQ(used.stencil.diagonal, fresh.stencil.diagonal);
+      EXPECT_EQ(used.stencil.right, fresh.stencil.right);
+      EXPECT_EQ(used.stencil.down, fresh.stencil.down);
+      EXPECT_EQ(used.stencil.down_right, fresh.stencil.down_right);
+      EXPECT_EQ(used.stencil.down_left, fresh.stencil.down_left);
+      EXPECT_EQ(used.curvature.empty(), each->curvature.empty());
+    }
   }
 }
 

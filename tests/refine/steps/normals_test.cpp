@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "refine/method.h"
 #include "tests/refine/exact_surface.h"
 
 namespace rakelight {
@@ -37,6 +38,29 @@ int corner_count(const CornerList& list, int p) {
   int count = 0;
   for (int k = 0; k < kCorners; ++k) count += list.has(p, k);
   return count;
+}
+
+TEST(SurfacePoints, LieOnTheirRaysAtTheirDepth) {
+  const Plane plane;
+  const Eigen::Matrix3Xf points = surface_points(plane.grid, plane.zeta);
+  for (int p = 0; p < plane.grid.size(); ++p) {
+    const cv::Point at = plane.grid.pixels[static_cast<size_t>(p)];
+    const Eigen::Vector3d ray((at.x - 11.5) / 300.0, (at.y - 8.5) / 310.0, 1);
+    EXPECT_LT((points.col(p).cast<double>() - std::exp(plane.zeta[p]) * ray).norm(), 1e-6);
+    EXPECT_NEAR(plane.normal.dot(points.col(p).cast<double>()), -0.8, 1e-6);
+  }
+}
+
+TEST(DepthChange, IsTheRootMeanSquareInMillimetres) {
+  const Plane plane;
+  Eigen::VectorXd moved = plane.zeta;
+  double sum = 0;
+  for (Eigen::Index p = 0; p < moved.size(); ++p) {
+    moved[p] += 1e-3 * std::sin(static_cast<double>(p));
+    sum += std::pow(1e3 * (std::exp(moved[p]) - std::exp(plane.zeta[p])), 2);
+  }
+  const double expected = std::sqrt(sum / static_cast<double>(moved.size()));
+  EXPECT_NEAR(rms_change_mm(plane.zeta, moved), expected, 1e-5 * expected);
 }
 
 TEST(SurfaceNormals, OfAPlaneAreItsNormalEverywhere) {

@@ -101,8 +101,9 @@ TEST(Prior, ItsRightSideIsMinusHalfTheGradient) {
 TEST(Prior, ItsMatrixLeadsToTheMinimumInOneStep) {
   const RandomPrior random(2);
   const DepthSystem system = random.system();
-  const Eigen::VectorXd step =
-      test::dense_matrix(random.grid, random.prior.cells, system).ldlt().solve(test::pixel_rhs(random.grid, system));
+  const Eigen::VectorXd step = test::dense_matrix(random.grid, random.prior.cells, system)
+                                   .ldlt()
+                                   .solve(test::pixel_rhs(random.grid, system));
   const double lowest = prior_energy(random.prior, random.zeta + step);
   for (Eigen::Index p = 0; p < step.size(); ++p) {
     for (const double h : {-1e-3, 1e-3}) {
