@@ -76,10 +76,13 @@ class MultigridDepthSolver final : public DepthSolver {
   /// The right-hand side is scaled to 1: a float's range then never matters.
   static double inverse_or_zero(double scale) { return scale > 0 ? 1 / scale : 0; }
 
+  /// The stencil is all there is to the system.
+  bool whole_matrix() const { return single_cells_ && curvature_.empty(); }
+
   /// Preconditions the residual, and multiplies by the system with the exact K' Lambda K.
   Products precondition_and_multiply() {
     Products products = multigrid_.apply(residual_, preconditioned_, product_);
-    if (single_cells_ && curvature_.empty()) return products;
+    if (whole_matrix()) return products;
     if (!curvature_.empty()) {
       last_->stencil.multiply(preconditioned_, product_);
       curvature_.add_product(last_->stencil, preconditioned_, product_);
@@ -122,8 +125,8 @@ class MultigridDepthSolver final : public DepthSolver {
   /// Solves for the residual, of size 1, times scale: preconditioned conjugate gradients in the form of Chronopoulos and Gear,
   /// where only preconditioned vectors are multiplied, each while it is in the cache:
   ///   p' = z + share p,  q' = A p' = A z + share q,  p' q' = z' A z - share^2 p q.
-  /// Where they converge fast, the last step, which by the rate so far reaches the tolerance, is taken without looking at its
-  /// result: with cells of several pixels rates vary too much for that.
+  /// Where the preconditioner is made of the very matrix and they converge fast, the last step, which by the rate so far reaches
+  /// the tolerance, is taken without looking at its result. Elsewhere smooth parts fall fast at first, and others slowly.
   /// @return false, x untouched, when it does not converge
   bool conjugate_gradients(double scale, Eigen::VectorXd& x) {
     if (!std::isfinite(scale)) return false;
@@ -141,7 +144,7 @@ class MultigridDepthSolver final : public DepthSolver {
       pq = at.xAx - share * share * pq;
       if (!(pq > 0)) return false;
       const auto length = static_cast<float>(rz / pq), turned = static_cast<float>(share);
-      if (!anew && share < kSteady && rz * share <= target)
+      if (!anew && whole_matrix() && share < kSteady && rz * share <= target)
         return finish(step, last + length * turned, length, scale, x);
       if (step == 0)
         begin(length);
