@@ -15,8 +15,9 @@ using Eigen::VectorXf;
 
 constexpr int kMostSteps =
     200;  // 2 to 20 without second differences; what needs more is left to the exact solver
-constexpr double kSteady =
-    0.03;  // fall of the squared residual in a step that the next one may be counted on to repeat
+// A step may be counted on where the last one made the squared residual fall below the first share, and to repeat that but
+// for the second factor: rates grow from step to step as smooth parts are left.
+constexpr double kSteady = 0.03, kDoubt = 10;
 constexpr int kSlow = 20;  // steps after which the preconditioner smooths twice
 
 class MultigridDepthSolver final : public DepthSolver {
@@ -144,7 +145,7 @@ class MultigridDepthSolver final : public DepthSolver {
       pq = at.xAx - share * share * pq;
       if (!(pq > 0)) return false;
       const auto length = static_cast<float>(rz / pq), turned = static_cast<float>(share);
-      if (!anew && whole_matrix() && share < kSteady && rz * share <= target)
+      if (!anew && whole_matrix() && share < kSteady && kDoubt * rz * share <= target)
         return finish(step, last + length * turned, length, scale, x);
       if (step == 0)
         begin(length);
