@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refine/method.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "refine/kernels/depth_kernels.h"
 #include "refine/pixel_blocks.h"
@@ -25,6 +27,18 @@ double rms_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after
     return kernels::squared_depth_change(before.data() + begin, after.data() + begin, end - begin);
   });
   return 1e3 * std::sqrt(sum / static_cast<double>(before.size()));
+}
+
+double typical_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  constexpr Eigen::Index kSamples = 20000;  // good to a percent
+  const Eigen::Index step = std::max<Eigen::Index>(1, before.size() / kSamples);
+  std::vector<double> changes;
+  for (Eigen::Index p = 0; p < before.size(); p += step)
+    changes.push_back(std::abs(std::exp(after[p]) - std::exp(before[p])));
+  if (changes.empty()) return 0;
+  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
+  std::nth_element(changes.begin(), middle, changes.end());
+  return 1e3 * 1.4826 * *middle;
 }
 
 }  // namespace rakelight

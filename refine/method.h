@@ -37,4 +37,8 @@ SurfaceState initial_state(const RefineProblem& problem, const RefineOptions& op
 /// Root mean square change of depth between two states of zeta = log z, mm.
 double rms_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after);
 
+/// The same as most pixels have it: a robust deviation, from the median of a fixed choice of pixels. A few at a frayed rim may
+/// flip to and fro by centimetres for ever.
+double typical_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after);
+
 }  // namespace rakelight

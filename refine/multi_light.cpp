@@ -84,7 +84,7 @@ bool settled(const RefineProblem& problem, const RefineOptions& options,
     const double previous = reports[reports.size() - 2].energy;
     return std::abs(last.energy - previous) <= options.tolerance * previous;
   }
-  return last.depth_change_mm < 1e3 * options.tolerance * problem.sensor.noise_m &&
+  return last.typical_change_mm < 1e3 * options.tolerance * problem.sensor.noise_m &&
          last.index > options.min_iterations;
 }
 
@@ -143,6 +143,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     report.energy = step.energy_after;
     report.backtracks = step.backtracks;
     report.depth_change_mm = rms_change_mm(before, state.zeta);
+    report.typical_change_mm = typical_change_mm(before, state.zeta);
     report.sensor_weight = prior.cell_weight.maxCoeff();
     result.iterations.push_back(report);
     after_iteration(t, static_cast<double>(t) / options.max_iterations, state.zeta);

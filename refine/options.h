@@ -107,9 +107,9 @@ struct RefineOptions {
   int max_iterations = 40;  ///< outer iterations
   int min_iterations = 14;  ///< robust: no stop before the lamp model is chosen and has taken effect
   double tolerance =
-      0.01;         ///< robust: stop when depth moves less than this share of a depth pixel's noise (rms);
-                    ///< paper: epsilon, the relative change of the energy
-  int threads = 0;  ///< 0: all; the result does not depend on it
+      0.01;  ///< robust: stop when depth typically moves less than this share of a depth pixel's noise;
+             ///< paper: epsilon, the relative change of the energy
+  int threads = 0;               ///< 0: all; the result does not depend on it
   int uncertainty_samples = 16;  ///< random surfaces drawn for the error bars (multi-light); 0: none
   PreprocessOptions preprocess;
   LampOptions lamps;

@@ -36,6 +36,7 @@ struct IterationReport {
   double energy = 0;               ///< after the depth step, the weights of this iteration
   double energy_before_depth = 0;  ///< same weights, before the depth step
   double depth_change_mm = 0;      ///< root mean square change of depth
+  double typical_change_mm = 0;    ///< the same as most pixels have it (1.4826 medians); multi-light only
   double residual_scale = 0;       ///< robust standard deviation of the photometric residual, linear radiance
   int backtracks = 0;              ///< halvings the depth step needed
   double sensor_weight = 0;        ///< lambda_z used, on log z

@@ -55,6 +55,7 @@ std::vector<IterationReport> read_iterations(ObjectReader& manifest) {
     report.energy = number_or_zero(iteration, "energy");
     report.energy_before_depth = number_or_zero(iteration, "energy_before_depth");
     report.depth_change_mm = number_or_zero(iteration, "depth_change_mm");
+    report.typical_change_mm = number_or_zero(iteration, "typical_change_mm");
     report.residual_scale = number_or_zero(iteration, "residual_scale");
     report.seconds = number_or_zero(iteration, "seconds");
     iterations.push_back(report);

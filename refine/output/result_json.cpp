@@ -62,6 +62,7 @@ Json json_of(const IterationReport& iteration) {
           {"energy", iteration.energy},
           {"energy_before_depth", iteration.energy_before_depth},
           {"depth_change_mm", iteration.depth_change_mm},
+          {"typical_change_mm", iteration.typical_change_mm},
           {"residual_scale", iteration.residual_scale},
           {"backtracks", iteration.backtracks},
           {"sensor_weight", iteration.sensor_weight},

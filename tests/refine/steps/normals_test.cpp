@@ -63,6 +63,15 @@ TEST(DepthChange, IsTheRootMeanSquareInMillimetres) {
   EXPECT_NEAR(rms_change_mm(plane.zeta, moved), expected, 1e-5 * expected);
 }
 
+TEST(DepthChange, IsTypicallyThatOfMostPixels) {
+  const Plane plane;
+  Eigen::VectorXd moved = plane.zeta.array() + 1e-3;
+  for (Eigen::Index p = 0; p < moved.size(); p += 50) moved[p] += 1;  // metres
+  const double expected = 1.4826e3 * 1e-3 * plane.zeta.array().exp().mean();
+  EXPECT_NEAR(typical_change_mm(plane.zeta, moved), expected, 0.1 * expected);
+  EXPECT_GT(rms_change_mm(plane.zeta, moved), 10 * expected);
+}
+
 TEST(SurfaceNormals, OfAPlaneAreItsNormalEverywhere) {
   const Plane plane;
   for (const Stencil stencil : {Stencil::forward, Stencil::symmetric}) {
