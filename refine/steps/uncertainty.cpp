@@ -18,8 +18,8 @@ constexpr double kSensorReach =
 /// Size of all errors of the images' model to those that differ between images, and of the normals' errors to the change
 /// between neighbours. Fitted together on rendered scans of six objects, far and near lamps, with and without shadows,
 /// highlights and noise, so that about two thirds of the errors lie inside one deviation.
-constexpr float kSharedErrors = 8;
-constexpr double kPixelRelief = 0.35;
+constexpr float kSharedErrors = 6;
+constexpr double kPixelRelief = 0.25;
 
 constexpr int kWindow = 7;  // pixels; sixteen draws give 18 % of a deviation, neighbours together less
 
