@@ -22,6 +22,9 @@ namespace {
 /// to the sensor, and edge weights would take the sensor's steps for edges and tear the surface there.
 constexpr int kWarmUp = 8;
 
+/// Radiance: what rounding to 8 bits leaves. Where all is darker, a scale from the residuals would run after its own weights to 0.
+constexpr double kLeastModelError = 1e-3;
+
 /// Of a step's linear system (DepthSolver): the next step starts from where this one ends, so exact ones gain nothing.
 constexpr double kStepTolerance = 0.01;
 
@@ -99,7 +102,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
   const auto solver = options.depth.solver == Solver::exact
                           ? make_cholesky_depth_solver(problem.grid, problem.prior.cells)
                           : make_multigrid_depth_solver(problem.grid, problem.prior.cells, kStepTolerance);
-  const double model_error = options.trust.model_error * median_radiance(images);
+  const double model_error = std::max(kLeastModelError, options.trust.model_error * median_radiance(images));
   const bool robust = options.trust.cauchy_scale > 0;
   const AlbedoRole role = options.depth.linearization == Linearization::gauss_newton
                               ? AlbedoRole::follows_normal
