@@ -30,7 +30,7 @@ double rms_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after
 }
 
 double typical_change_mm(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  constexpr Eigen::Index kSamples = 20000;  // good to a percent
+  constexpr Eigen::Index kSamples = 5000;  // good to two percent
   const Eigen::Index step = std::max<Eigen::Index>(1, before.size() / kSamples);
   std::vector<double> changes;
   for (Eigen::Index p = 0; p < before.size(); p += step)

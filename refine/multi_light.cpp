@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "refine/pixel_blocks.h"
 #include "refine/steps/albedo.h"
 #include "refine/steps/depth_step.h"
 #include "refine/steps/lamp_estimator.h"
@@ -49,6 +50,13 @@ double sensor_weight(const DepthOptions& options, const MeasuredNoise& noise) {
   if (options.sensor_weight > 0) return options.sensor_weight;
   const double ratio = noise.image / noise.depth;
   return options.noise_ratio * ratio * ratio;
+}
+
+/// lambda_z over the readings, `given` saying how they compare.
+void weigh_sensor(double lambda, const DepthPrior& given, DepthPrior& prior) {
+  for_each_block(static_cast<int>(prior.cell_weight.size()), [&](int begin, int end) {
+    prior.cell_weight.segment(begin, end - begin) = lambda * given.cell_weight.segment(begin, end - begin);
+  });
 }
 
 void require_enough_images(const std::string& stack, const Observations& images) {
@@ -103,6 +111,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
                           ? make_cholesky_depth_solver(problem.grid, problem.prior.cells)
                           : make_multigrid_depth_solver(problem.grid, problem.prior.cells, kStepTolerance);
   const double model_error = std::max(kLeastModelError, options.trust.model_error * median_radiance(images));
+  const double most_sure_reading = problem.prior.cell_weight.maxCoeff();
   const bool robust = options.trust.cauchy_scale > 0;
   const AlbedoRole role = options.depth.linearization == Linearization::gauss_newton
                               ? AlbedoRole::follows_normal
@@ -135,7 +144,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
                              role, state, tensors);
 
     noise = measured_errors(problem, state, t, t <= kWarmUp ? model_error : report.residual_scale);
-    prior.cell_weight = sensor_weight(options.depth, noise) * problem.prior.cell_weight;
+    weigh_sensor(sensor_weight(options.depth, noise), problem.prior, prior);
     const double edge_weight = t > kWarmUp ? options.trust.edge_weight : 0;
     if (t == 1 || edge_weight > 0)
       weights = corner_weights(problem.grid, problem.corners, tensors, state.zeta, edge_weight);
@@ -147,7 +156,7 @@ MethodResult refine_multi_light(const RefineProblem& problem, const RefineOption
     report.backtracks = step.backtracks;
     report.depth_change_mm = rms_change_mm(before, state.zeta);
     report.typical_change_mm = typical_change_mm(before, state.zeta);
-    report.sensor_weight = prior.cell_weight.maxCoeff();
+    report.sensor_weight = sensor_weight(options.depth, noise) * most_sure_reading;
     result.iterations.push_back(report);
     after_iteration(t, static_cast<double>(t) / options.max_iterations, state.zeta);
 

@@ -19,7 +19,7 @@ Eigen::Vector3f residual(const Observations& images, const SurfaceState& state, 
 /// Median of |value(image, pixel)| over usable samples and channels of images [first, last), from a fixed choice of pixels.
 template <class Value>
 double median_of_samples(const Observations& images, int first, int last, const Value& value) {
-  constexpr int kSamples = 24000, kLeastAnImage = 1500;  // good to a percent
+  constexpr int kSamples = 12000, kLeastAnImage = 750;  // pixels, three channels each: good to a percent
   const int an_image = std::max(kLeastAnImage, kSamples / std::max(1, last - first));
   const int step = std::max(1, images.pixels / an_image);
   std::vector<std::vector<float>> sizes(static_cast<size_t>(last - first));
