@@ -10,7 +10,10 @@ namespace rakelight {
 
 enum class Method { multi_light, rgb_ratio, fusion_like, rgbd_fusion };
 enum class Preset { paper, robust };
-enum class Linearization { gauss_newton, fixed_point };
+enum class Linearization {
+  gauss_newton,  ///< in normal and albedo at once (refine/steps/photometric_tensor.h)
+  fixed_point,   ///< n / d with d and albedo held (the paper)
+};
 enum class Stencil {
   forward,    ///< one corner a pixel: forward differences, backward at the border (the paper)
   symmetric,  ///< the mean over all four corners: unbiased, without the null space of central differences
