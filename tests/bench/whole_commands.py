@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Rakelight authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times `rakelight refine` as a whole process beside OpenCV decoding the stack's PNGs in one thread.
+"""Times `rakelight refine` as a whole process beside OpenCV decoding the stack's PNGs in one thread, and a scan with the
+virtual rig, refined: from nothing to a surface.
 
     whole_commands.py RAKELIGHT STACK ...
 """
@@ -48,6 +49,17 @@ def memory(file):
     return numpy.frombuffer(file, numpy.uint8)
 
 
+def scan(program):
+    """Best of some scans that are refined; nothing where the program is built without sensors."""
+    with tempfile.TemporaryDirectory() as home:
+        runs = [run([program, "scan", "-o", os.path.join(home, f"scan{k}"), "--refine", os.path.join(home, f"out{k}")])
+                for k in range(RUNS)]
+    if any(code != 0 for code, *_ in runs):
+        return
+    wall, cpu, peak = (min(column) for column in list(zip(*runs))[1:])
+    print(f"| virtual rig | scan --refine | {wall:.2f} | {cpu:.2f} | | {peak:.0f} | |")
+
+
 def main(program, stacks):
     print("| stack | method | wall s | CPU s | / decoding | peak MB | / decoded stack |")
     print("| --- | --- | --- | --- | --- | --- | --- |")
@@ -63,6 +75,7 @@ def main(program, stacks):
             wall, cpu, peak = (min(column) for column in list(zip(*runs))[1:])
             print(f"| {pathlib.Path(stack).name} | {method} | {wall:.2f} | {cpu:.2f} | {wall / seconds:.1f} | {peak:.0f} | "
                   f"{peak / megabytes:.1f} |")
+    scan(program)
 
 
 main(sys.argv[1], sys.argv[2:])
