@@ -20,7 +20,7 @@ using kernels::kTilePixels;
 /// Columns [begin, begin + count) of a 3 x pixels matrix as planar rows; the rest repeats the last column.
 void copy_planar(const Eigen::Matrix3Xf& from, int begin, int count, kernels::TileRow (&rows)[3]) {
   kernels::deinterleave3(from.data() + 3 * static_cast<std::ptrdiff_t>(begin), count, rows);
-  for (int c = 0; c < 3; ++c) std::fill(rows[c].at + count, rows[c].at + kTilePixels, rows[c].at[count - 1]);
+  for (kernels::TileRow& row : rows) std::fill(row.at + count, row.at + kTilePixels, row.at[count - 1]);
 }
 
 /// Weights of samples without weights.

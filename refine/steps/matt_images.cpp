@@ -25,7 +25,7 @@ std::vector<float> highlight(const kernels::NearLight& light, const SurfaceState
     kernels::deinterleave3(state.normals.col(begin).data(), count, normal);
     kernels::highlight_lobes(light, at, static_cast<int>(padded(static_cast<size_t>(count))), lobes);
     for (int k = 0; k < count; ++k)
-      share[static_cast<size_t>(begin + k)] =
+      share[static_cast<size_t>(begin) + static_cast<size_t>(k)] =
           static_cast<float>(gloss[0]) * broad.at[k] + static_cast<float>(gloss[1]) * sharp.at[k];
   }
   return share;

@@ -33,7 +33,8 @@ SurfacePoints moved_surface(const NearLampUnknowns& at, const LampRegion& region
   for (int axis = 0; axis < 3; ++axis) {
     moved.point.col(axis) *= stretch;
     moved.normal.col(axis) +=
-        (region.normal_by_c.middleCols<kBroadChanges>(kBroadChanges * axis).matrix() * c).array();
+        (region.normal_by_c.middleCols<kBroadChanges>(Eigen::Index{kBroadChanges} * axis).matrix() * c)
+            .array();
   }
   const Eigen::ArrayXf inverse_length = moved.normal.square().rowwise().sum().rsqrt();
   for (int axis = 0; axis < 3; ++axis) moved.normal.col(axis) *= inverse_length;

@@ -37,7 +37,8 @@ int pixel_of(const std::vector<int>& pixels, Eigen::Index row) {
 
 RegionSamples samples_at(const Observations& images, std::vector<int> pixels) {
   const auto count = static_cast<Eigen::Index>(pixels.size());
-  const Eigen::Index rows = padded(pixels.size()), columns = 3 * images.images;
+  const Eigen::Index rows = padded(pixels.size()),
+                     columns = sample_column(static_cast<size_t>(images.images), 0);
   RegionSamples samples{std::move(pixels), Eigen::ArrayXXf(rows, columns),
                         Eigen::ArrayXXf::Zero(rows, columns)};
   for (int i = 0; i < images.images; ++i) {
@@ -59,14 +60,15 @@ void look_at_shape(const BroadShape* shape, const SurfaceState& state, LampRegio
   const std::vector<int>& pixels = region.samples->pixels;
   const Eigen::Index rows = region.samples->rows();
   region.B = Eigen::ArrayXXf::Zero(rows, kBroadChanges);
-  region.normal_by_c = Eigen::ArrayXXf::Zero(rows, 3 * kBroadChanges);
+  region.normal_by_c = Eigen::ArrayXXf::Zero(rows, Eigen::Index{3} * kBroadChanges);
   region.prior_weight = region.prior_miss = Eigen::ArrayXd::Zero(rows);
   if (!shape) return;
   for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(pixels.size()); ++k) {
     const BroadPixel pixel = broad_pixel(*shape, state, pixels[static_cast<size_t>(k)]);
     region.B.row(k) = pixel.B;
     for (int axis = 0; axis < 3; ++axis)
-      region.normal_by_c.block<1, kBroadChanges>(k, kBroadChanges * axis) = pixel.normal_by_c.row(axis);
+      region.normal_by_c.block<1, kBroadChanges>(k, Eigen::Index{kBroadChanges} * axis) =
+          pixel.normal_by_c.row(axis);
     region.prior_weight[k] = pixel.prior_weight;
     region.prior_miss[k] = pixel.prior_miss;
   }

@@ -41,7 +41,7 @@ struct SampledImage {
 
 /// Strength and ambient light, neither below zero, that fit one channel best: A (s, phi) = b.
 Eigen::Vector2f fit_strength(const Eigen::Matrix2f& A, const Eigen::Vector2f& b) {
-  const Eigen::Vector2f s =
+  Eigen::Vector2f s =
       (A.cast<double>() + 1e-9 * Eigen::Matrix2d::Identity()).ldlt().solve(b.cast<double>()).cast<float>();
   if (s[0] < 0) return {0, b[1] / std::max(1e-9f, A(1, 1))};
   if (s[1] < 0) return {b[0] / std::max(1e-9f, A(0, 0)), 0};

@@ -56,8 +56,7 @@ Eigen::VectorXd fit_near_lamps(const std::vector<RegionSamples>& samples, const 
       break;
     }
   }
-  const Eigen::VectorXd change =
-      shape ? broad_change(state, at.shape) : Eigen::VectorXd::Zero(state.zeta.size());
+  Eigen::VectorXd change = shape ? broad_change(state, at.shape) : Eigen::VectorXd::Zero(state.zeta.size());
   state.lamps = at.lamps;
   state.scene = at.scene;
   gloss = at.gloss;
