@@ -43,19 +43,13 @@ void ImageSums::find_albedo(Tile& tile, const TileStretch& stretch) {
   kernels::divide_albedo(albedo_, stretch.pixels, tile.surface());
 }
 
-void ImageSums::find_tensors(Tile& tile, const TileStretch& stretch) {
+void ImageSums::find_tensors(Tile& tile, const TileStretch& stretch, AlbedoRole role) {
+  const bool coupled = role == AlbedoRole::follows_normal;
   kernels::plain_tensors(tile.surface(), plain_, stretch.pixels, tensors_);
+  if (coupled) kernels::plain_coupling(tile.surface(), plain_, stretch.pixels, coupling_);
   if (!stretch.others.empty())
     kernels::add_tensors(tile.surface(), chosen(lamps_.lamps, tile, stretch.others), stretch.pixels, tensors_,
-                         nullptr);
-}
-
-void ImageSums::find_coupled_tensors(Tile& tile, const TileStretch& stretch) {
-  kernels::plain_tensors(tile.surface(), plain_, stretch.pixels, tensors_);
-  kernels::plain_coupling(tile.surface(), plain_, stretch.pixels, coupling_);
-  if (!stretch.others.empty())
-    kernels::add_tensors(tile.surface(), chosen(lamps_.lamps, tile, stretch.others), stretch.pixels, tensors_,
-                         &coupling_);
+                         coupled ? &coupling_ : nullptr);
 }
 
 }  // namespace rakelight

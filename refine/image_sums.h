@@ -32,11 +32,8 @@ class ImageSums {
   /// Puts the albedo into the tile's surface.
   void find_albedo(Tile& tile, const TileStretch& stretch);
 
-  /// The tensors under the surface's albedo.
-  void find_tensors(Tile& tile, const TileStretch& stretch);
-
-  /// The same, and what ties the albedo to the normal.
-  void find_coupled_tensors(Tile& tile, const TileStretch& stretch);
+  /// The tensors under the surface's albedo, and, if it is to follow the normal, what ties it to that.
+  void find_tensors(Tile& tile, const TileStretch& stretch, AlbedoRole role);
 
   /// Lets the albedo follow the normal in the whole tile. Once, and last.
   void eliminate_albedo(Tile& tile) { kernels::eliminate_albedo(tile.surface(), coupling_, tensors_); }

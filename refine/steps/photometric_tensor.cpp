@@ -80,7 +80,7 @@ PhotometricTensors accumulate_tensors(const Observations& images, const SurfaceS
     ImageSums sums(lamps);
     for (const TileStretch& stretch : tile.stretches(lamps.lamps)) {
       sums.add_plain(tile, stretch);
-      sums.find_tensors(tile, stretch);
+      sums.find_tensors(tile, stretch, AlbedoRole::held);
     }
     store(sums.tensors(), tile.begin(), tile.count(), tensors);
   });
@@ -95,10 +95,7 @@ void find_albedo_and_accumulate(const Observations& images, AlbedoRole role, Sur
     for (const TileStretch& stretch : tile.stretches(lamps.lamps)) {
       sums.add_plain(tile, stretch);
       sums.find_albedo(tile, stretch);
-      if (role == AlbedoRole::held)
-        sums.find_tensors(tile, stretch);
-      else
-        sums.find_coupled_tensors(tile, stretch);
+      sums.find_tensors(tile, stretch, role);
     }
     if (role == AlbedoRole::follows_normal) sums.eliminate_albedo(tile);
     tile.store_albedo(state.albedo);
