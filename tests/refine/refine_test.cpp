@@ -326,6 +326,14 @@ TEST(RefineDepth, SurvivesMasksOfManyPiecesAndThinLines) {
   EXPECT_EQ(cv::countNonZero(result.depth > 0), cv::countNonZero(stack.mask));
 }
 
+/// In the dark a share of the radiance is less than rounding: weights by so small a scale would leave no sample.
+TEST(RefineDepth, DoesNotTakeMatchesOfDarkSamplesForExact) {
+  LightStack stack = bump_stack();
+  for (Frame& frame : stack.frames) frame.color = frame.color / 100;
+  const RefineResult result = refine_depth(stack, at_scale(1));
+  for (const IterationReport& iteration : result.iterations) EXPECT_GE(iteration.residual_scale, 1e-3);
+}
+
 TEST(RefineDepth, SurvivesImagesOfWhichSomeAreBlackOrSaturated) {
   LightStack stack = bump_stack();
   stack.frames[2].color.setTo(0);

@@ -87,7 +87,7 @@ function drawConvergence() {
   }
   const span = (key) => `From ${short(steps[0][key])} to ${short(steps.at(-1)[key])} in ${steps.length} iterations.`;
   byId('convergence').append(
-    logCurve('Change of depth in an iteration, mm', span('depth_change_mm'), steps.map((s) => s.depth_change_mm), 'first'),
+    logCurve('Change of depth in an iteration (rms), mm', span('depth_change_mm'), steps.map((s) => s.depth_change_mm), 'first'),
     logCurve('Energy after the depth step', span('energy'), steps.map((s) => s.energy), 'second'));
   const table = element('table');
   fillTable(table, steps.map((s) => [String(s.index), s.depth_change_mm, s.energy, s.residual_scale, s.backtracks, s.seconds]),
